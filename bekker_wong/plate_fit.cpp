@@ -61,32 +61,10 @@ class NotAKnotSpline {
   std::vector<double> curvature_;
 };
 
-/// Weighted means and moments of ln z and ln p about them, weights p^2.
-struct Moments {
-  double ln_z = 0.0, ln_p = 0.0;  ///< means
-  double zz = 0.0, zp = 0.0;      ///< sums about the means
-};
-
-Moments moments(const PlateCurve& curve) {
-  const std::size_t n = curve.pressure.size();
-  if (n < 2 || curve.sinkage.size() != n) throw InputError("a plate's curve needs at least two points");
-  if (!(curve.radius > 0.0)) throw InputError("a plate's radius must be positive");
-  Moments m;
-  double weight = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double p = curve.pressure[i], z = curve.sinkage[i];
-    if (!(p > 0.0 && z > 0.0)) throw InputError("a plate's pressures and sinkages must be positive");
-    weight += p * p;
-    m.ln_z += p * p * std::log(z);
-    m.ln_p += p * p * std::log(p);
-  }
-  m.ln_z /= weight, m.ln_p /= weight;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double p = curve.pressure[i], dz = std::log(curve.sinkage[i]) - m.ln_z;
-    m.zz += p * p * dz * dz;
-    m.zp += p * p * dz * (std::log(p) - m.ln_p);
-  }
-  return m;
+std::vector<PlateSums> all_sums(std::span<const PlateCurve> curves) {
+  std::vector<PlateSums> all;
+  for (const PlateCurve& curve : curves) all.push_back(sums_of(curve));
+  return all;
 }
 
 }  // namespace
@@ -113,14 +91,49 @@ PlateCurve mean_curve(std::span<const PlateTest> repeats, const PressureGrid& gr
   return curve;
 }
 
-PlateFit fit_plates_at(std::span<const PlateCurve> curves, double exponent) {
+PlateSums sums_of(const PlateCurve& curve) {
+  const std::size_t n = curve.pressure.size();
+  if (n < 2 || curve.sinkage.size() != n) throw InputError("a plate's curve needs at least two points");
+  if (!(curve.radius > 0.0)) throw InputError("a plate's radius must be positive");
+  PlateSums m{.radius = curve.radius};
+  for (std::size_t i = 0; i < n; ++i) {
+    const double p = curve.pressure[i], z = curve.sinkage[i];
+    if (!(p > 0.0 && z > 0.0)) throw InputError("a plate's pressures and sinkages must be positive");
+    m.weight += p * p;
+    m.ln_z += p * p * std::log(z);
+    m.ln_p += p * p * std::log(p);
+  }
+  m.ln_z /= m.weight, m.ln_p /= m.weight;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double p = curve.pressure[i], dz = std::log(curve.sinkage[i]) - m.ln_z, dp = std::log(p) - m.ln_p;
+    m.zz += p * p * dz * dz;
+    m.zp += p * p * dz * dp;
+    m.pp += p * p * dp * dp;
+  }
+  constexpr double rounding = 1e-20;  // of the squares of the means, that sums of equal sinkages may leave
+  if (!(m.zz > rounding * m.weight * (1.0 + m.ln_z * m.ln_z)))
+    throw InputError("a plate's sinkages are all the same: no exponent follows from them");
+  return m;
+}
+
+double PlateSums::modulus(double exponent) const { return std::exp(ln_p - exponent * ln_z); }
+
+double exponent_of(std::span<const PlateSums> curves, PlateExponent exponent) {
+  double zz = 0.0, zp = 0.0, mean = 0.0;
+  for (const PlateSums& m : curves) {
+    zz += m.zz, zp += m.zp;
+    mean += m.exponent() / static_cast<double>(curves.size());
+  }
+  return exponent == PlateExponent::common ? zp / zz : mean;
+}
+
+PlateFit fit_plates_at(std::span<const PlateSums> curves, double exponent) {
   PlateFit fit;
   fit.exponent = exponent;
   double sum_u = 0.0, sum_k = 0.0, sum_uu = 0.0, sum_uk = 0.0;  // u = 1/b
-  for (const PlateCurve& curve : curves) {
-    const Moments m = moments(curve);
-    const double u = 1 / curve.radius, k = std::exp(m.ln_p - exponent * m.ln_z);
-    fit.plate_exponents.push_back(m.zp / m.zz);
+  for (const PlateSums& m : curves) {
+    const double u = 1 / m.radius, k = m.modulus(exponent);
+    fit.plate_exponents.push_back(m.exponent());
     fit.plate_moduli.push_back(k);
     sum_u += u, sum_k += k, sum_uu += u * u, sum_uk += u * k;
   }
@@ -131,14 +144,13 @@ PlateFit fit_plates_at(std::span<const PlateCurve> curves, double exponent) {
   return fit;
 }
 
+PlateFit fit_plates_at(std::span<const PlateCurve> curves, double exponent) {
+  return fit_plates_at(std::span<const PlateSums>(all_sums(curves)), exponent);
+}
+
 PlateFit fit_plates(std::span<const PlateCurve> curves, PlateExponent exponent) {
-  double zz = 0.0, zp = 0.0, mean = 0.0;
-  for (const PlateCurve& curve : curves) {
-    const Moments m = moments(curve);
-    zz += m.zz, zp += m.zp;
-    mean += m.zp / m.zz / static_cast<double>(curves.size());
-  }
-  return fit_plates_at(curves, exponent == PlateExponent::common ? zp / zz : mean);
+  const std::vector<PlateSums> sums = all_sums(curves);
+  return fit_plates_at(std::span<const PlateSums>(sums), exponent_of(sums, exponent));
 }
 
 }  // namespace soilbin::bekker_wong

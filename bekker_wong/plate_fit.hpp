@@ -51,12 +51,30 @@ struct PlateFit {
   std::vector<double> plate_moduli;     ///< k of each plate at the exponent above [N/m^(n+2)]
 };
 
+/// All that a fit needs of a curve: means of ln z and ln p, and sums about them, with weights p^2.
+struct PlateSums {
+  double radius = 0.0;            ///< b [m]
+  double ln_z = 0.0, ln_p = 0.0;  ///< means of ln(z / 1 m), ln(p / 1 Pa)
+  double zz = 0.0, zp = 0.0;      ///< sums of squares of ln z and of products with ln p [Pa^2]
+  double pp = 0.0, weight = 0.0;  ///< of squares of ln p, and of the weights [Pa^2]
+  double exponent() const { return zp / zz; }
+  /// k [N/m^(n+2)] at an exponent.
+  double modulus(double exponent) const;
+};
+
+/// Throws InputError for a curve of fewer than two points, of sinkages that are all the same, or of numbers that are
+/// not above 0.
+PlateSums sums_of(const PlateCurve& curve);
+
+/// n of all curves: each one's own, averaged, or one of a common regression.
+double exponent_of(std::span<const PlateSums> curves, PlateExponent exponent);
+
 /// Fits n by least squares in logarithms with weights p^2, each plate's modulus at that n, then k_c and k_phi by a
-/// plain line through the moduli over 1/b. Throws InputError for fewer than two radii or a curve of fewer than two
-/// points.
+/// plain line through the moduli over 1/b. Throws InputError for fewer than two radii, or as sums_of does.
 PlateFit fit_plates(std::span<const PlateCurve> curves, PlateExponent exponent = PlateExponent::mean_of_plates);
 
 /// The same at a given exponent: each plate's modulus, then k_c and k_phi.
 PlateFit fit_plates_at(std::span<const PlateCurve> curves, double exponent);
+PlateFit fit_plates_at(std::span<const PlateSums> curves, double exponent);
 
 }  // namespace soilbin::bekker_wong

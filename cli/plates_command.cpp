@@ -3,20 +3,20 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/plate_doubts.hpp"
-#include "compare/measured/csv.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {
 namespace {
 
 struct PlatesOptions {
-  std::string file, pressure, plot;
+  std::string file, pressure, plate, plot;
   std::vector<std::string> only;
   bool json = false;
 };
@@ -36,8 +36,10 @@ int plates(const PlatesOptions& options) {
   compare::PressureWindow window;
   if (!options.pressure.empty())
     std::tie(window.first, window.last) = read_range("--pressure", options.pressure, {"kPa", zero_or_more});
-  const std::vector<compare::MeasuredPlate> tests =
-      compare::read_plates(read_source_text(options.file, compare::largest_csv), rows_asked(options.only));
+  std::optional<double> diameter;
+  if (!options.plate.empty()) diameter = read_flag("--plate", options.plate, {"mm", above_zero});
+  const std::vector<compare::MeasuredPlate> tests = compare::read_plates(
+      read_source_text(options.file, compare::largest_plate_csv), rows_asked(options.only), diameter);
   const compare::MeasuredPlatesFit fit = compare::fit_measured_plates(tests, window);
   const std::vector<std::string> doubts = compare::doubts(fit);
   print_warnings(doubts);
@@ -64,6 +66,8 @@ void add_plates(CLI::App& app, Session& session) {
       ->allow_extra_args(false);
   add_value(*command, "--pressure", options->pressure, "LOW..HIGH",
             "readings that are used; best those that your wheel makes");
+  add_value(*command, "--plate", options->plate, "DIAMETER",
+            "of the one round plate of all tests, where no column tells it");
   add_plot(*command, options->plot, "draw the readings and Bekker's form");
   command->add_flag("--json", options->json, "soilbin-plates/1, in SI");
   command->footer("Example: soilbin plates plates.csv --only box=large-box --pressure 1kPa..30kPa --plot plates.svg");

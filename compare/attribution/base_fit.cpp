@@ -6,6 +6,7 @@
 #include <random>
 
 #include "compare/fit/thresholds.hpp"
+#include "compare/measured/outliers.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -93,9 +94,7 @@ FittedModel fit_from_several(Dataset made, std::optional<VectorXd> start, std::u
 /// The data with a new estimate of their noise about a fit; cells too far off it are set aside, unless they are many.
 Dataset with_noise(const FittedModel& model, const NoiseEstimate& estimate, bool drop_outliers) {
   const Dataset& data = model.data();
-  std::vector<bool> drop(data.observations.cells.size());
-  const double seldom = thresholds::outlier_level / static_cast<double>(drop.size());
-  for (std::size_t i = 0; i < drop.size(); ++i) drop[i] = estimate.chance[i] < seldom;
+  std::vector<bool> drop = outliers(estimate.chance);
   const auto count = static_cast<double>(std::ranges::count(drop, true));
   if (!drop_outliers || count == 0 || count > thresholds::max_outlier_share * static_cast<double>(drop.size()))
     drop.assign(drop.size(), false);

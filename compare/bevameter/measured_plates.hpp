@@ -1,16 +1,22 @@
 // The n, k_c and k_phi of Bekker's form p = (k_c/b + k_phi) z^n that measured plate tests give, with errors. b is a
-// round plate's radius, or the width of a strip.
+// round plate's radius, or the width of a strip. What is not on a test's loading curve (loading_curve.hpp), and a test
+// that the others disown (test_agreement.hpp), is set aside and told.
 //
-//   const std::vector<MeasuredPlate> plates = read_plates(read_source_text("plates.csv", largest_csv));
+//   const std::vector<MeasuredPlate> plates = read_plates(read_source_text("plates.csv", largest_plate_csv));
 //   const MeasuredPlatesFit fit = fit_measured_plates(plates);   // fit.k_phi.value +- fit.k_phi.std_error [N/m^(n+2)]
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "compare/bevameter/loading_curve.hpp"
 #include "compare/bevameter/plate_tests.hpp"
+#include "compare/bevameter/test_agreement.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/plot.hpp"
 #include "scenario/estimate.hpp"
@@ -22,11 +28,30 @@ struct PressureWindow {
   double first = 0.0, last = std::numeric_limits<double>::infinity();
 };
 
-/// A value and the two parts of its standard error, which is the root of the sum of their squares.
+/// A value and the three parts of its standard error, which is the root of the sum of their squares.
 struct PlateValue {
   Estimate estimate;
-  double between_tests = 0.0;  ///< by leaving out each test in turn (jackknife), with Student's t; 0 without repeats
+  /// What one more test of each plate scatters about these, and these about the truth: by leaving out each test in turn
+  /// (jackknife), with Student's t; 0 without repeats.
+  double between_tests = 0.0;
   double between_pressures = 0.0;  ///< half of what the lower and the upper half of each plate's pressures differ
+  double between_readings = 0.0;   ///< by least squares, of readings that scatter about their curves; n and k together
+};
+
+/// Readings that were left out of a fit.
+struct PlateReadingsAside {
+  std::string test;
+  double radius = 0.0;     ///< b of its plate [m]
+  AsideReadings readings;  ///< places in its curve
+  std::vector<int> lines;  ///< of the file; empty where the test came from none
+};
+
+/// A test that the others disown.
+struct PlateTestApart {
+  TestApart apart;
+  std::string test;
+  double radius = 0.0;                ///< b of its plate [m]
+  int first_line = 0, last_line = 0;  ///< of the file; 0 where the test came from none
 };
 
 struct MeasuredPlatesFit {
@@ -36,19 +61,33 @@ struct MeasuredPlatesFit {
   std::vector<double> radii;            ///< b of the plates, from the smallest [m]
   std::vector<double> plate_exponents;  ///< of each of these by itself
   std::vector<double> plate_moduli;     ///< of each at the common n [N/m^(n+2)]
-  std::vector<int> tests;               ///< of each
+  std::vector<int> tests;               ///< of each, those that were used
+  double test_scatter = 0.0;            ///< standard deviation of ln k among tests of one size [-]; 0 without repeats
+
+  /// Plates of one size do not part k_c from k_phi: k_c is 0 then and k_phi stands for k_c/b + k_phi, good for this b.
+  bool one_size() const { return radii.size() == 1; }
+  /// Whether lower and upper halves of the pressures could be compared: else between_pressures are 0.
+  bool halves_compared = true;
+  std::size_t readings = 0;               ///< that were used
+  std::vector<PlateReadingsAside> aside;  ///< readings that were not
+  std::vector<PlateTestApart> apart;      ///< tests that disagree
+  std::optional<std::array<double, 3>>
+      kept;  ///< n, k_c and k_phi [SI] with all of these kept; none: there is no such fit
+  std::size_t readings_aside() const;
 };
 
-/// One n for all tests and each plate's modulus at it (bekker_wong/plate_fit.hpp). Throws InputError for plates of one
-/// size, and for a test with fewer than six readings in the window.
+/// One n for all tests and each plate's modulus at it (bekker_wong/plate_fit.hpp). Throws InputError for a test with
+/// fewer than six readings on its loading curve in the window.
 MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, const PressureWindow& window = {});
 
-/// Pressure over sinkage: every reading in the window, and Bekker's form for each plate.
+/// Pressure over sinkage: every reading that was used, those set aside, and Bekker's form for each plate.
 Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFit& fit, const std::string& title);
 
-/// The values with the parts of their errors, each plate by itself, and the lines that a campaign or a soil file takes,
-/// with `source` beside each number. tests: how many the fit is of.
+/// The values with the parts of their errors, each plate by itself, what was set aside, and the lines that a campaign
+/// or a soil file takes, with `source` beside each number. tests: how many there were.
 std::string in_words(const MeasuredPlatesFit& fit, std::size_t tests, const std::string& source);
+/// "test '3' of the plate of b = 50 mm bears 10 times what the other tests let expect ..."
+std::string in_words(const PlateTestApart& one);
 /// soilbin-plates/1.
 Json to_json(const MeasuredPlatesFit& fit, std::size_t tests);
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -87,7 +88,8 @@ std::vector<PlateColumn> columns_of(const CsvTable& table) {
   return columns;
 }
 
-void need_columns(const std::vector<PlateColumn>& columns, const CsvTable& table, const SourceText& csv) {
+void need_columns(const std::vector<PlateColumn>& columns, const CsvTable& table, const SourceText& csv,
+                  bool size_is_told) {
   const auto count = [&](std::initializer_list<Holds> kinds) {
     return std::ranges::count_if(
         columns, [&](const PlateColumn& c) { return std::ranges::find(kinds, c.holds) != kinds.end(); });
@@ -99,7 +101,13 @@ void need_columns(const std::vector<PlateColumn>& columns, const CsvTable& table
   };
   one({Holds::sinkage}, "the sinkage");
   one({Holds::pressure, Holds::force}, "the pressure");
-  one({Holds::diameter, Holds::radius, Holds::width, Holds::plate_label}, "the size of the plate");
+  const std::initializer_list<Holds> sizes = {Holds::diameter, Holds::radius, Holds::width, Holds::plate_label};
+  if (size_is_told && count(sizes) > 0)
+    throw InputError(fmt::format("--plate: {} tells the size of its plates itself", csv.file));
+  if (!size_is_told && count(sizes) == 0)
+    csv.refuse(at, "no column holds the size of the plate",
+               std::string(columns_hint) + "; or --plate DIAMETER where every test was with one round plate");
+  if (!size_is_told) one(sizes, "the size of the plate");
   if (count({Holds::force}) > 0 && count({Holds::width}) > 0)
     csv.refuse(at, "a force on a strip gives no pressure: its length is not told", columns_hint);
 }
@@ -140,8 +148,10 @@ struct PlateReading {
   std::string test;
 };
 
-PlateReading reading_of(const CsvRow& row, const std::vector<PlateColumn>& columns, const SourceText& csv) {
+PlateReading reading_of(const CsvRow& row, const std::vector<PlateColumn>& columns, const SourceText& csv,
+                        std::optional<double> diameter) {
   PlateReading reading;
+  reading.radius = diameter.value_or(0.0) / 2;
   bool by_force = false;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const CsvCell& cell = row.cells[i];
@@ -261,7 +271,7 @@ void need_possible_numbers(const std::vector<const CsvRow*>& rows, const std::ve
 /// Forces that stand beside the pressures of round plates and, over their area, say otherwise; which is right is not
 /// known.
 void need_forces_that_agree(const std::vector<const CsvRow*>& rows, const std::vector<PlateColumn>& columns,
-                            const CsvTable& table, const SourceText& csv) {
+                            const CsvTable& table, const SourceText& csv, std::optional<double> diameter) {
   constexpr double rounding = 0.05;  // of the largest pressure
   const auto force = std::ranges::find(columns, Holds::force_beside_pressure, &PlateColumn::holds);
   if (force == columns.end() || std::ranges::find(columns, Holds::width, &PlateColumn::holds) != columns.end()) return;
@@ -269,7 +279,7 @@ void need_forces_that_agree(const std::vector<const CsvRow*>& rows, const std::v
   double largest = 0.0, apart = 0.0, by_force = 0.0, told = 0.0;
   for (const CsvRow* row : rows) {
     if (row->cells[place].text.empty()) continue;
-    const PlateReading reading = reading_of(*row, columns, csv);
+    const PlateReading reading = reading_of(*row, columns, csv, diameter);
     if (reading.pressure == 0.0) continue;  // no reading
     const double pressure =
         value_in(row->cells[place], *force, csv) / (std::numbers::pi * reading.radius * reading.radius);
@@ -287,10 +297,11 @@ void need_forces_that_agree(const std::vector<const CsvRow*>& rows, const std::v
 }  // namespace
 
 std::vector<MeasuredPlate> read_plates(const SourceText& csv,
-                                       const std::vector<std::pair<std::string, std::string>>& only) {
-  const CsvTable table = parse_csv(csv);
+                                       const std::vector<std::pair<std::string, std::string>>& only,
+                                       std::optional<double> diameter) {
+  const CsvTable table = parse_csv(csv, most_plate_rows);
   const std::vector<PlateColumn> columns = columns_of(table);
-  need_columns(columns, table, csv);
+  need_columns(columns, table, csv, diameter.has_value());
   const auto kept = wanted(table, csv, only);
   std::vector<const CsvRow*> rows;
   for (const CsvRow& row : table.rows)
@@ -298,18 +309,18 @@ std::vector<MeasuredPlate> read_plates(const SourceText& csv,
       rows.push_back(&row);
   need_labels_of_tests(rows, columns, table, csv);
   need_possible_numbers(rows, columns, table, csv);
-  need_forces_that_agree(rows, columns, table, csv);
+  need_forces_that_agree(rows, columns, table, csv, diameter);
   std::vector<MeasuredPlate> plates;
+  std::map<std::pair<std::string, double>, std::size_t> places;
   for (const CsvRow* row : rows) {
-    const PlateReading reading = reading_of(*row, columns, csv);
-    auto plate = std::ranges::find_if(plates, [&](const MeasuredPlate& known) {
-      return known.test == reading.test && known.curve.radius == reading.radius;
-    });
-    if (plate == plates.end())
-      plate = plates.insert(plates.end(), {reading.test, {.radius = reading.radius, .pressure = {}, .sinkage = {}}});
+    const PlateReading reading = reading_of(*row, columns, csv, diameter);
+    const auto [place, is_new] = places.try_emplace({reading.test, reading.radius}, plates.size());
+    if (is_new) plates.push_back({reading.test, {.radius = reading.radius, .pressure = {}, .sinkage = {}}});
+    MeasuredPlate& plate = plates[place->second];
     if (!(reading.pressure > 0.0 && reading.sinkage > 0.0)) continue;
-    plate->curve.pressure.push_back(reading.pressure);
-    plate->curve.sinkage.push_back(reading.sinkage);
+    plate.curve.pressure.push_back(reading.pressure);
+    plate.curve.sinkage.push_back(reading.sinkage);
+    plate.lines.push_back(row->line);
   }
   return plates;
 }

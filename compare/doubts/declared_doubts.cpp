@@ -57,7 +57,7 @@ void add_value_doubts(const SemiEmpiricalSoil& soil, Warnings& warnings) {
   if (!(soil.k_c.value > 0.0) && !(soil.k_phi.value > 0.0))
     warnings.emplace_back("neither k_c nor k_phi is positive: this soil carries nothing, at any width of wheel");
   const double phi = soil.friction_angle.value / degree, c = soil.cohesion.value / 1000;
-  expect(warnings, "n", soil.exponent.value, {0.1, 1.8, "", "plate tests give 0.1 .. 1.6"});
+  expect(warnings, "n", soil.exponent.value, {0.1, 1.8, "", "most plate tests give 0.1 .. 1.6"});
   expect(warnings, "c", c, {0, 100, "kPa", "soft soils have 0 .. 70 kPa"});
   expect(warnings, "phi", phi, {0, 50, "deg", "the densest sand has some 45 deg"});
   expect(warnings, "K", 1000 * soil.shear_modulus.value, {0.5, 120, "mm", "6 mm in firm clay, 25 mm in loose sand"});

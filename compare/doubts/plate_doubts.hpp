@@ -8,7 +8,8 @@
 
 namespace soilbin::compare {
 
-/// A modulus below 0, no test that was repeated, a form that misses the pressures.
+/// Tests that disagree, a sensor that sticks, spikes without number, one size of plate, a modulus below 0, an unusual
+/// n, no test that was repeated, a form that misses the pressures.
 std::vector<std::string> doubts(const MeasuredPlatesFit& fit);
 
 }  // namespace soilbin::compare

@@ -9,6 +9,8 @@
 
 #include <array>
 
+#include "compare/measured/outliers.hpp"  // outlier_level, max_outlier_share
+
 namespace soilbin::compare::thresholds {
 
 // --- stage 2: noise and base fit ---
@@ -33,12 +35,6 @@ inline constexpr double min_constant_share = 0.02, price_of_growth = 1.0;
 /// Smooth functions of the conditions beside which the noise is estimated, at most; values of a channel for each.
 /// Chosen: fewer leave an effect in the noise, more take the noise away.
 inline constexpr int noise_functions = 40, values_a_noise_function = 3;
-/// Chance that a campaign of noise alone loses any of its values as an outlier [-]: each is set aside where its own
-/// chance is below this over their number (Bonferroni). Chosen: of 64 campaigns without an outlier none lost one.
-/// With outliers kept the verdict was the same in all eight campaigns that had any.
-inline constexpr double outlier_level = 0.01;
-/// Largest share of the values that may be set aside at once [-]; where there are more, none is. Chosen.
-inline constexpr double max_outlier_share = 0.1;
 /// Soils that a base fit starts from at the most. Chosen; 30 starts end at one chi2 on 18 synthetic campaigns.
 inline constexpr int max_starts = 8;
 /// Two ends of a fit are one where their chi2 differ by less than either: [chi2], share of chi2 [-]. Chosen.

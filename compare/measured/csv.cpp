@@ -113,7 +113,7 @@ void check_header(const CsvRow& header, const SourceText& source) {
 
 }  // namespace
 
-CsvTable parse_csv(const SourceText& source) {
+CsvTable parse_csv(const SourceText& source, std::size_t most_rows) {
   CsvReader reader(source);
   CsvTable table;
   if (!reader.next(table.header, most_csv_columns)) source.refuse(0, "the file is empty: a header line is expected");
@@ -124,9 +124,9 @@ CsvTable parse_csv(const SourceText& source) {
     if (row.cells.size() != columns)
       source.refuse(row.cells.front().offset,
                     fmt::format("a row of {} cells under a header of {}", row.cells.size(), columns));
-    if (table.rows.size() >= most_csv_rows)
+    if (table.rows.size() >= most_rows)
       source.refuse(
-          row.cells.front().offset, fmt::format("more than {} rows", most_csv_rows),
+          row.cells.front().offset, fmt::format("more than {} rows", most_rows),
           fmt::format("this is a log. A campaign wants one row a run, the means of its steady part; of plates a "
                       "part will do, such as each tenth row: awk 'NR == 1 || NR % 10 == 0' '{}' > fewer.csv",
                       source.file));

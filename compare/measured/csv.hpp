@@ -30,9 +30,9 @@ inline constexpr std::size_t most_csv_rows = 100'000;
 inline constexpr std::size_t most_csv_columns = 200;
 
 /// Throws InputError with line and column for a quote that is never closed, text behind a closing quote, a row with
-/// more or fewer cells than the header, an empty or repeated name in the header, no header at all, and too many rows
-/// or columns.
-CsvTable parse_csv(const SourceText& source);
+/// more or fewer cells than the header, an empty or repeated name in the header, no header at all, more rows than
+/// most_rows, and too many columns.
+CsvTable parse_csv(const SourceText& source, std::size_t most_rows = most_csv_rows);
 
 /// The finite number that a cell of a column must hold; `unit`: that of the column ("-": none), for the hint. Throws
 /// InputError at the cell, with what to write in its place.

@@ -12,7 +12,6 @@
 
 #include "bekker_wong/gsl.hpp"
 #include "compare/doubts/plate_doubts.hpp"
-#include "compare/measured/csv.hpp"
 #include "tests/scenario/refusal.hpp"
 
 namespace soilbin::compare {
@@ -58,7 +57,8 @@ TEST(MeasuredPlates, GiveBackTheSoilThatMadeThem) {
 
 // Two tests of each plate, of moduli 0.9 and 1.1. Without one of them its plate's modulus is the other's: a tenth off
 // the mean; so each plate's jackknife variance is (1/2)(0.01 + 0.01) of the modulus squared, that of the mean of two.
-// Two variances of one degree of freedom each are known as one of (a + b)^2/(a^2 + b^2) degrees: Student's t is wider.
+// One test more scatters by twice that, and about the mean by both: three times. Two variances of one degree of freedom
+// each are known as one of (a + b)^2/(a^2 + b^2) degrees: Student's t is wider.
 TEST(MeasuredPlates, ScatterOfRepeatsIsTheirError) {
   std::string csv = plate_columns;
   for (const double diameter : {0.06, 0.10})
@@ -68,22 +68,23 @@ TEST(MeasuredPlates, ScatterOfRepeatsIsTheirError) {
   const double small = 0.1 * (made_k_c / 0.03 + made_k_phi), large = 0.1 * (made_k_c / 0.05 + made_k_phi);
   // k_phi = (k_2/u_2 - k_1/u_1)/(1/u_2 - 1/u_1) = (5 k_2 - 3 k_1)/2 with u = 1/b of 33.3 and 20 1/m.
   const double a = std::pow(2.5 * large, 2), b = std::pow(1.5 * small, 2);
-  EXPECT_NEAR(fit.k_phi.between_tests, std::sqrt(a + b) * gsl::student_factor((a + b) * (a + b) / (a * a + b * b)),
-              1e-3 * made_k_phi);
+  EXPECT_NEAR(fit.k_phi.between_tests,
+              std::sqrt(3 * (a + b)) * gsl::student_factor((a + b) * (a + b) / (a * a + b * b)), 1e-3 * made_k_phi);
   EXPECT_NEAR(fit.k_phi.estimate.value, made_k_phi, 1e-3 * made_k_phi);
   EXPECT_NEAR(fit.exponent.between_tests, 0.0, 1e-6);
 }
 
-// Three plates, three tests each, moduli that scatter by 5 %: the errors hold the truth as often as they say.
-TEST(MeasuredPlates, ErrorsOfFewTestsHoldTheTruthInTwoThirds) {
+// Three plates, three tests each, moduli that scatter by 5 %: the errors hold what three more tests give as often as
+// they say.
+TEST(MeasuredPlates, ErrorsOfFewTestsHoldReTestsInTwoThirds) {
   std::mt19937_64 random(4);
   std::normal_distribution<double> normal;
   constexpr int made = 400;
   int k_c = 0, k_phi = 0;
-  for (int i = 0; i < made; ++i) {
+  const auto pressed = [&](int tests) {
     std::vector<MeasuredPlate> plates;
     for (const double radius : {0.03, 0.04, 0.05})
-      for (int test = 0; test < 3; ++test) {
+      for (int test = 0; test < tests; ++test) {
         MeasuredPlate& plate = plates.emplace_back();
         plate.curve.radius = radius;
         const double modulus = (1 + 0.05 * normal(random)) * (made_k_c / radius + made_k_phi);
@@ -92,9 +93,12 @@ TEST(MeasuredPlates, ErrorsOfFewTestsHoldTheTruthInTwoThirds) {
           plate.curve.pressure.push_back(modulus * std::pow(0.002 * reading, made_n));
         }
       }
-    const MeasuredPlatesFit fit = fit_measured_plates(plates);
-    k_c += std::abs(fit.k_c.estimate.value - made_k_c) < fit.k_c.estimate.std_error;
-    k_phi += std::abs(fit.k_phi.estimate.value - made_k_phi) < fit.k_phi.estimate.std_error;
+    return fit_measured_plates(plates);
+  };
+  for (int i = 0; i < made; ++i) {
+    const MeasuredPlatesFit fit = pressed(3), again = pressed(1);
+    k_c += std::abs(fit.k_c.estimate.value - again.k_c.estimate.value) < fit.k_c.estimate.std_error;
+    k_phi += std::abs(fit.k_phi.estimate.value - again.k_phi.estimate.value) < fit.k_phi.estimate.std_error;
   }
   EXPECT_NEAR(static_cast<double>(k_c) / made, 0.683, 0.06);
   EXPECT_NEAR(static_cast<double>(k_phi) / made, 0.683, 0.06);
@@ -171,11 +175,6 @@ TEST(MeasuredPlates, BadFilesAreRefused) {
                 read_csv_of_plates(plate_columns + rows_of_a_plate(0.06, "a"), {{"tset", "a"}});
               }),
               HasSubstr("did you mean 'test'?"));
-  EXPECT_THAT(refusal([] {
-                fit_measured_plates(
-                    read_csv_of_plates(plate_columns + rows_of_a_plate(0.06, "a") + rows_of_a_plate(0.06, "b")));
-              }),
-              HasSubstr("plates of at least two sizes"));
   EXPECT_THAT(refusal([] {
                 fit_measured_plates(read_csv_of_plates(plate_columns + "a,0.06,0.01,1\n" + rows_of_a_plate(0.1, "b")));
               }),
@@ -254,14 +253,224 @@ TEST(MeasuredPlates, AColumnThatChangesInEachRowTellsNoTests) {
 // The tests on GRC-1 up to 50 kPa: Oravec (2009) published n = 1.232 and a negative k_phi from averaged repeats.
 TEST(MeasuredPlates, TheShelfsFilesAreRead) {
   const std::string folder = SOILBIN_SOURCE_DIR "/cases/measured/plates/";
-  const auto plates = read_plates(read_source_text(folder + "grc1-plates.csv", largest_csv));
+  const auto plates = read_plates(read_source_text(folder + "grc1-plates.csv", largest_plate_csv));
   ASSERT_EQ(plates.size(), 15u);
   const MeasuredPlatesFit low = fit_measured_plates(plates, {0.5e3, 50e3}), whole = fit_measured_plates(plates);
   EXPECT_LT(low.k_phi.estimate.value, 0.0);
   EXPECT_NEAR(low.exponent.estimate.value, 1.232, 2 * low.exponent.estimate.std_error);
   EXPECT_LT(whole.exponent.estimate.value, low.exponent.estimate.value) << "GRC-1 is no power law";
   EXPECT_THAT(doubts(low), testing::Contains(HasSubstr("k_phi is negative")));
-  EXPECT_EQ(read_plates(read_source_text(folder + "cmu-plates.csv", largest_csv), {{"box", "large-box"}}).size(), 9u);
+  EXPECT_EQ(read_plates(read_source_text(folder + "cmu-plates.csv", largest_plate_csv), {{"box", "large-box"}}).size(),
+            9u);
+}
+
+/// One reading, to put among others by hand.
+struct PlateReadingAt {
+  double sinkage, pressure;  // mm, kPa
+};
+
+/// Tests on n = 1, k_c = 10 kN/m^2, k_phi = 1000 kN/m^3: plates of 100 and 150 mm in turn, every 2 mm to 16 mm,
+/// pressures to four digits; `change` may alter the readings of a test, numbered from 1.
+template <class Change>
+std::string dirty_plates(int tests, const Change& change) {
+  std::string csv = "test,plate_diameter_mm,sinkage_mm,pressure_kPa\n";
+  for (int test = 1; test <= tests; ++test) {
+    const double diameter = test % 2 == 1 ? 100 : 150;
+    std::vector<PlateReadingAt> readings;
+    for (int z = 2; z <= 16; z += 2) readings.push_back({1.0 * z, (20000 / diameter + 1000) * z / 1000});
+    change(test, readings);
+    for (const auto& [sinkage, pressure] : readings)
+      csv += fmt::format("{},{},{:.6g},{:.4g}\n", test, diameter, sinkage, pressure);
+  }
+  return csv;
+}
+
+/// The fit gives n = 1, k_c = 10 and k_phi = 1000 within its errors, and these are below a thousandth.
+void expect_the_clean_soil(const MeasuredPlatesFit& fit) {
+  for (const auto& [value, truth] : {std::pair{fit.exponent, 1.0}, {fit.k_c, 1e4}, {fit.k_phi, 1e6}}) {
+    EXPECT_NEAR(value.estimate.value, truth, value.estimate.std_error);
+    EXPECT_LT(value.estimate.std_error, 2e-3 * truth);
+  }
+}
+
+std::vector<int> lines_aside(const MeasuredPlatesFit& fit) {
+  std::vector<int> lines;
+  for (const PlateReadingsAside& one : fit.aside) lines.insert(lines.end(), one.lines.begin(), one.lines.end());
+  return lines;
+}
+
+// One sinkage of 240 mm for 10 mm among 32 exact readings gave n = 0.25 +- 0.91.
+TEST(DirtyPlates, ASpikeOfTheSinkageIsSetAsideWithItsLine) {
+  const MeasuredPlatesFit fit = fit_measured_plates(read_csv_of_plates(
+      dirty_plates(4, [](int test, auto& readings) { readings[4].sinkage = test == 1 ? 240 : 10; })));
+  expect_the_clean_soil(fit);
+  EXPECT_EQ(lines_aside(fit), (std::vector<int>{6}));
+  ASSERT_TRUE(fit.kept);
+  EXPECT_NEAR((*fit.kept)[0], 0.25, 0.01) << "what the answer was with the spike";
+  EXPECT_THAT(in_words(fit, 4, "x"), HasSubstr("Set aside as spikes, off the readings around them: 1 reading of 1 test "
+                                               "(line 6).\nWith everything kept: n = 0.2501"));
+  const Json document = to_json(fit, 4);
+  EXPECT_EQ(document["set_aside"][0]["why"], "sinkage_spike");
+  EXPECT_EQ(document["set_aside"][0]["lines"][0], 6);
+}
+
+// Wherever one reading is off, by either sensor, up or down, it is that reading that goes and no other.
+TEST(DirtyPlates, ASpikeAnywhereIsFound) {
+  for (std::size_t at = 0; at < 8; ++at)
+    for (const double factor : {20.0, 1 / 20.0})
+      for (const bool force : {true, false}) {
+        if (!force && factor > 1 && at == 0) continue;  // a first reading of 40 mm: see below
+        const MeasuredPlatesFit fit =
+            fit_measured_plates(read_csv_of_plates(dirty_plates(4, [&](int test, auto& readings) {
+              if (test == 2) (force ? readings[at].pressure : readings[at].sinkage) *= factor;
+            })));
+        SCOPED_TRACE(fmt::format("{} of reading {} times {}", force ? "pressure" : "sinkage", at, factor));
+        for (const auto& [value, truth] : {std::pair{fit.exponent, 1.0}, {fit.k_c, 1e4}, {fit.k_phi, 1e6}})
+          EXPECT_NEAR(value.estimate.value, truth, std::max(value.estimate.std_error, 0.01 * truth));
+        EXPECT_LE(fit.readings_aside(),
+                  at == 1 && !force ? 2u : 1u);  // is the first too deep, or the second not enough?
+      }
+}
+
+// 240 mm first, then 4 mm under more pressure: no soil lifts a plate that is pressed on.
+TEST(DirtyPlates, AFirstReadingTooDeepIsASpike) {
+  const MeasuredPlatesFit fit = fit_measured_plates(
+      read_csv_of_plates(dirty_plates(4, [](int test, auto& readings) { readings[0].sinkage = test == 3 ? 240 : 2; })));
+  expect_the_clean_soil(fit);
+  EXPECT_EQ(lines_aside(fit), (std::vector<int>{18}));
+}
+
+// Unloaded at 10 mm to nearly nothing and loaded again, on a slope of 1000 times the pressure a metre.
+TEST(DirtyPlates, UnloadingAndReloadingAreLeftOutAndGiveKu) {
+  const MeasuredPlatesFit fit = fit_measured_plates(read_csv_of_plates(dirty_plates(4, [](int, auto& readings) {
+    const double top = readings[4].pressure;
+    std::vector<PlateReadingAt> branch;
+    for (const double back : {0.3, 0.6, 0.9, 0.7, 0.4}) branch.push_back({10 - back, top * (1 - back)});
+    readings.insert(readings.begin() + 5, branch.begin(), branch.end());
+  })));
+  expect_the_clean_soil(fit);
+  EXPECT_EQ(fit.readings_aside(), 20u);
+  for (const PlateReadingsAside& one : fit.aside) {
+    EXPECT_EQ(one.readings.why, AsideWhy::unloading);
+    ASSERT_TRUE(one.readings.unloading_stiffness);
+    EXPECT_NEAR(*one.readings.unloading_stiffness, 1000 * one.readings.pressure, 5 * one.readings.pressure);
+  }
+  EXPECT_THAT(in_words(fit, 4, "x"), HasSubstr("Set aside as unloading, reloading or holding: 20 readings of 4 tests"));
+}
+
+// The pressure rises at 16 mm from 16 to 80 kPa: this gave n = 2.66 with an error that was no number.
+TEST(DirtyPlates, ADepthSensorThatSticksIsLeftOutAndDoubted) {
+  const MeasuredPlatesFit fit = fit_measured_plates(read_csv_of_plates(dirty_plates(2, [](int, auto& readings) {
+    for (const double pressure : {25.0, 35.0, 45.0, 60.0, 80.0}) readings.push_back({16, pressure});
+  })));
+  expect_the_clean_soil(fit);
+  EXPECT_EQ(fit.readings_aside(), 10u);
+  EXPECT_THAT(doubts(fit), testing::Contains(HasSubstr("does the depth sensor stick")));
+  EXPECT_THAT(in_words(fit, 2, "x"), testing::Not(HasSubstr("nan")));
+}
+
+// A sensor that never moves gives no exponent, and no line for a file.
+TEST(DirtyPlates, ASinkageThatNeverMovesIsRefused) {
+  EXPECT_THAT(refusal([] {
+                fit_measured_plates(read_csv_of_plates(dirty_plates(2, [](int test, auto& readings) {
+                  for (PlateReadingAt& reading : readings)
+                    if (test == 2) reading.sinkage = 16;
+                })));
+              }),
+              AllOf(HasSubstr("test '2' of the plate of b = 75 mm has 1 reading"), HasSubstr("is a sensor stuck?")));
+}
+
+// Centimetres under a column in millimetres gave k_phi = -9800 kN/m^3.
+TEST(DirtyPlates, ATestInAnotherUnitIsNamedAndSetAside) {
+  const MeasuredPlatesFit fit = fit_measured_plates(read_csv_of_plates(dirty_plates(4, [](int test, auto& readings) {
+    for (PlateReadingAt& reading : readings) reading.sinkage /= test == 3 ? 10 : 1;
+  })));
+  expect_the_clean_soil(fit);
+  EXPECT_THAT(doubts(fit),
+              testing::Contains(AllOf(HasSubstr("test '3' of the plate of b = 50 mm (lines 18 to 25) bears 10"),
+                                      HasSubstr("sinkage in cm for mm"), HasSubstr("it was set aside"))));
+}
+
+// Re-tests that scatter as sand's do are none of them disowned, and one of four times the pressure is.
+TEST(DirtyPlates, ATestThatDisagreesIsNamedAndRepeatsAreNot) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  int disowned = 0, named = 0;
+  for (int i = 0; i < 200; ++i)
+    for (const double factor : {1.0, 4.0}) {
+      const MeasuredPlatesFit fit =
+          fit_measured_plates(read_csv_of_plates(dirty_plates(6, [&](int test, auto& readings) {
+            const double share = std::exp(0.1 * normal(random)) * (test == 5 ? factor : 1.0);
+            for (PlateReadingAt& reading : readings) reading.pressure *= share;
+          })));
+      const auto aside = std::ranges::count_if(fit.apart, [](const auto& one) { return one.apart.set_aside; });
+      if (factor == 1.0)
+        disowned += aside > 0;
+      else
+        named += aside == 1 && fit.apart.front().test == "5";
+    }
+  EXPECT_LE(disowned, 4);
+  EXPECT_GE(named, 180);
+}
+
+// Thirteen tests of one plate: n and k = k_c/b + k_phi, and a file that takes k_c = 0.
+TEST(DirtyPlates, OneSizeOfPlateGivesNAndK) {
+  std::string csv = plate_columns;
+  for (int test = 0; test < 13; ++test)
+    csv += rows_of_a_plate(0.1, fmt::format("t{}", test), 1.0 + 0.05 * (test % 3 - 1));
+  const MeasuredPlatesFit fit = fit_measured_plates(read_csv_of_plates(csv));
+  ASSERT_TRUE(fit.one_size());
+  EXPECT_NEAR(fit.exponent.estimate.value, made_n, 1e-4);
+  EXPECT_NEAR(fit.k_phi.estimate.value, made_k_c / 0.05 + made_k_phi, 1e-2 * made_k_phi);
+  EXPECT_NEAR(fit.k_phi.estimate.std_error, 0.05 * std::sqrt(8.0 / 12) * (made_k_c / 0.05 + made_k_phi),
+              0.02 * made_k_phi);
+  EXPECT_THAT(doubts(fit), testing::Contains(HasSubstr("plates of one size do not part k_c from k_phi")));
+  EXPECT_THAT(in_words(fit, 13, "x"), AllOf(HasSubstr("k stands for k_c/b + k_phi at b = 50 mm"),
+                                            HasSubstr("k_c: {value: 0 kN/m^(n+1), sd: 0")));
+  EXPECT_TRUE(to_json(fit, 13)["k_c"].is_null());
+  EXPECT_NO_THROW(
+      read_plates(make_source_text("test,sinkage_m,pressure_kPa\na,0.01,9\na,0.02,18\n", "plates.csv"), {}, 0.1));
+}
+
+// The plates of the CMU sand, 3.5 % of whose readings jump by 2 to 30 times, a hundred times over: the clean answer,
+// soon.
+TEST(DirtyPlates, SpikesOnARealFileChangeNothing) {
+  const std::string file = SOILBIN_SOURCE_DIR "/cases/measured/plates/cmu-plates.csv";
+  const auto clean = read_plates(read_source_text(file, largest_plate_csv), {{"box", "large-box"}});
+  std::vector<MeasuredPlate> dirty;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform;
+  for (int copy = 0; copy < 100; ++copy)
+    for (MeasuredPlate plate : clean) {
+      plate.test += fmt::format(", copy {}", copy);
+      for (std::size_t i = 0; i < plate.curve.pressure.size(); ++i)
+        if (uniform(random) < 0.035)
+          (uniform(random) < 0.5 ? plate.curve.pressure : plate.curve.sinkage)[i] *= 2 + 28 * uniform(random);
+      dirty.push_back(std::move(plate));
+    }
+  const MeasuredPlatesFit of_clean = fit_measured_plates(clean);
+  for (const std::size_t tests : {std::size_t{9}, dirty.size()}) {
+    const MeasuredPlatesFit fit = fit_measured_plates(std::span(dirty).first(tests));
+    EXPECT_NEAR(fit.exponent.estimate.value, of_clean.exponent.estimate.value,
+                0.1 * of_clean.exponent.estimate.std_error);
+    EXPECT_NEAR(fit.k_phi.estimate.value, of_clean.k_phi.estimate.value, of_clean.k_phi.estimate.std_error);
+    EXPECT_LT((*fit.kept)[0], 0.7) << "with the spikes";
+    EXPECT_NEAR(static_cast<double>(fit.readings_aside()) / static_cast<double>(fit.readings + fit.readings_aside()),
+                0.038, 0.008);
+  }
+}
+
+// Of measured files that hold no spikes little goes: none of GRC-1's readings, and on the CMU sand the two holds of 9
+// and 20 readings at a sinkage that stays.
+TEST(DirtyPlates, CleanFilesLoseNothingButHolds) {
+  const std::string folder = SOILBIN_SOURCE_DIR "/cases/measured/plates/";
+  EXPECT_EQ(fit_measured_plates(read_plates(read_source_text(folder + "grc1-plates.csv", largest_plate_csv)))
+                .readings_aside(),
+            0u);
+  const MeasuredPlatesFit cmu =
+      fit_measured_plates(read_plates(read_source_text(folder + "cmu-plates.csv", largest_plate_csv)));
+  EXPECT_EQ(cmu.readings_aside(), 29u);
+  for (const PlateReadingsAside& one : cmu.aside) EXPECT_EQ(one.readings.why, AsideWhy::unloading);
 }
 
 }  // namespace
