@@ -37,7 +37,7 @@ struct SoilParameter {
 inline constexpr std::array<SoilParameter, 8> soil_parameters = [] {
   using S = SemiEmpiricalSoil;
   constexpr double per_kilo = 1e-3, per_milli = 1e3;
-  constexpr Range exponents{.lower = 0.1, .upper = 2.0}, c1s{.lower = 0.0, .upper = 1.0},
+  constexpr Range exponents{.lower = 0.05, .upper = 5.0}, c1s{.lower = 0.0, .upper = 1.0},
       c2s{.lower = -1.0, .upper = 2.0}, angles{.lower = 0.0, .upper = std::numbers::pi / 2, .upper_open = true};
   return std::array<SoilParameter, 8>{{
       {"exponent", "n", "n", "-", 1.0, exponents, "n of p = (k_c/b + k_phi) z^n", &S::exponent},
