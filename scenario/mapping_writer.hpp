@@ -1,4 +1,5 @@
-// Writes a described struct (description.hpp) as YAML. Every key that has a value is written, defaults included.
+// Writes a described struct (description.hpp) as YAML. Every key that has a value is written, defaults included. What
+// no reader would take is not written: a number out of its range, or none, is an InputError that names its key.
 #pragma once
 
 #include <cmath>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "scenario/description.hpp"
+#include "scenario/number_check.hpp"
 
 namespace soilbin {
 
@@ -70,15 +72,20 @@ class WriteFrom {
   }
 
   void number(const char* key, double T::*member, const Measure& measure, Need, const char*) {
+    check_number(key, from_.*member, measure);
     write_estimate(key, {from_.*member, 0.0}, measure.unit, writing_);
   }
 
   void number(const char* key, std::optional<double> T::*member, const Measure& measure, Need, const char*) {
-    if (from_.*member) write_estimate(key, {*(from_.*member), 0.0}, measure.unit, writing_);
+    if (!(from_.*member)) return;
+    check_number(key, *(from_.*member), measure);
+    write_estimate(key, {*(from_.*member), 0.0}, measure.unit, writing_);
   }
 
   void number(const char* key, Estimate T::*member, const Measure& measure, Need, const char*) {
     const Estimate& estimate = from_.*member;
+    check_number(key, estimate.value, measure);
+    check_number((std::string("sd of ") + key).c_str(), estimate.std_error, {measure.unit, zero_or_more});
     write_estimate(key, estimate, measure.unit, writing_, writing_.assumed_sd * std::abs(estimate.value));
   }
 

@@ -1,11 +1,15 @@
 // The resolved case: write, read, write gives the same bytes, whatever the case.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
+
+#include <limits>
 
 #include "scenario/case.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/yaml_node.hpp"
 #include "tests/scenario/fake_vocabulary.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin {
 namespace {
@@ -150,6 +154,27 @@ TEST(CaseWriter, TiresAndSoilsAlone) {
     soil.granular = any_granular();
     RC_ASSERT(write_soil(parse_soil(make_source_text(write_soil(soil), "s.yaml"))) == write_soil(soil));
   }));
+}
+
+// Whatever is written is read: a number that no file may hold (a fit that went wrong) is refused where it is written.
+TEST(CaseWriter, WhatNoReaderTakesIsNotWritten) {
+  const auto refused = [](Estimate SemiEmpiricalSoil::*member, Estimate value) {
+    Soil soil;
+    soil.name = "fitted";
+    SemiEmpiricalSoil& values = soil.semi_empirical.emplace();
+    values.exponent = {1, 0.1}, values.k_phi = {1e6, 1e5}, values.friction_angle = {0.5, 0.05};
+    values.shear_modulus = {0.02, 0.0}, values.stress_angle_c1 = {0.2, 0.1}, values.stress_angle_c2 = {0.3, 0.1};
+    EXPECT_NO_THROW(parse_soil(make_source_text(write_soil(soil), "s.yaml")));
+    values.*member = value;
+    return test::refusal([&] { write_soil(soil); });
+  };
+  using S = SemiEmpiricalSoil;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(refused(&S::exponent, {7, 0.1}), testing::HasSubstr("exponent: 7 is out of range"));
+  EXPECT_THAT(refused(&S::exponent, {2.66, none}), testing::HasSubstr("sd of exponent: nan is no number"));
+  EXPECT_THAT(refused(&S::k_phi, {none, 0}), testing::HasSubstr("k_phi: nan is no number"));
+  EXPECT_THAT(refused(&S::friction_angle, {-0.1, 0.1}), testing::HasSubstr("friction_angle: -0.1 is out of range"));
+  EXPECT_THAT(refused(&S::shear_modulus, {0.0, 0.1}), testing::HasSubstr("shear_modulus: 0 is out of range"));
 }
 
 TEST(CaseWriter, AnyTextIsAScalar) {
