@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -45,6 +46,13 @@ std::vector<std::string> typed_again(const CLI::App& command, const CLI::App* un
   return words;
 }
 
+/// The folder of a study's jobs, here, whatever the study is called.
+std::string usual_folder(const Study& study) {
+  std::string name = "sweep-" + study.name;
+  std::ranges::replace(name, '/', '-');
+  return name;
+}
+
 compare::Jobs jobs_of(const SweepOptions& asked, const Case& question, const CLI::App& command) {
   compare::Jobs jobs;
   jobs.on = asked.on == "slurm" ? compare::JobsOn::slurm : compare::JobsOn::local;
@@ -56,7 +64,7 @@ compare::Jobs jobs_of(const SweepOptions& asked, const Case& question, const CLI
   jobs.shards = asked.shards > 0 ? asked.shards : compare::shards_for(jobs.plan, at_least);
   jobs.at_once = asked.at_once > 0 ? asked.at_once : compare::side_by_side(all_cores(), flags.threads);
   jobs.program = this_program(), jobs.here = fs::current_path();
-  jobs.folder = fs::absolute(asked.output.empty() ? "sweep-" + question.study.name : asked.output).lexically_normal();
+  jobs.folder = fs::absolute(asked.output.empty() ? usual_folder(question.study) : asked.output).lexically_normal();
   jobs.beds = fs::absolute(folder_of_beds()).lexically_normal();
   CLI::App bed;
   SoilBinFlags of_bed;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 
 #include "compare/experiments/jobs.hpp"
 #include "compare/report/javascript.hpp"
@@ -59,7 +60,7 @@ std::string script_head(const Jobs& jobs) {
       "set -u\n"
       "cd {here}\n"
       "export SOILBIN_BEDS={bed_folder}\n",
-      fmt::arg("study", plan.study), fmt::arg("runs", counted(plan.runs.size(), "run")),
+      fmt::arg("study", quoted(std::vector{plan.study})), fmt::arg("runs", counted(plan.runs.size(), "run")),
       fmt::arg("beds", counted(plan.beds, "bed")),
       fmt::arg("shards", counted(static_cast<std::size_t>(jobs.shards), "shard")),
       fmt::arg("hours", plan.core_hours_left()), fmt::arg("script", quoted(jobs.folder / "sweep.sh")),
@@ -71,15 +72,18 @@ std::string script_head(const Jobs& jobs) {
                             quoted(jobs.bed_words), quoted(jobs.run_words));
 }
 
-/// A file of compare/experiments/scripts, its places "@name@" filled in.
-std::string filled(const char* script, const std::vector<std::pair<const char*, std::string>>& places) {
-  std::string text = embedded(job_scripts(), script);
-  for (const auto& [name, value] : places) {
-    const std::string place = fmt::format("@{}@", name);
-    for (std::size_t at = text.find(place); at != text.npos; at = text.find(place, at + value.size()))
-      text.replace(at, place.size(), value);
+/// A file of compare/experiments/scripts, its places "@name@" filled in; places in a value stay as they are.
+std::string filled(const char* script, const std::map<std::string, std::string>& places) {
+  const std::string text = embedded(job_scripts(), script);
+  std::string all;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t begin = std::min(text.find('@', at), text.size()), end = text.find('@', begin + 1);
+    all += text.substr(at, begin - at);
+    const auto place = end == text.npos ? places.end() : places.find(text.substr(begin + 1, end - begin - 1));
+    all += place != places.end() ? place->second : text.substr(begin, 1);
+    at = place != places.end() ? end + 1 : begin + 1;
   }
-  return text;
+  return all;
 }
 
 std::string script_of(const Jobs& jobs) {
