@@ -17,17 +17,12 @@ namespace soilbin::compare {
 /// The files of compare/experiments/scripts; made by the build.
 std::vector<EmbeddedFile> job_scripts();
 
-std::vector<std::size_t> runs_of_shard(const RunPlan& plan, const Shard& shard) {
+std::vector<std::vector<std::size_t>> runs_of_shards(const RunPlan& plan, int shards) {
   std::vector<AskedRun> list;
   for (const PlannedRun& run : plan.runs) list.push_back(run.run);
-  std::vector<std::size_t> places;
-  std::size_t from = 0;
-  for (int k = 1; k <= shard.number; ++k) {  // shards are stretches of the list, one behind the other
-    const std::size_t size = shard_of(list, {k, shard.of}).size();
-    if (k == shard.number)
-      for (std::size_t i = from; i < from + size; ++i) places.push_back(i);
-    from += size;
-  }
+  const std::vector<int> numbers = shard_numbers(list, shards);
+  std::vector<std::vector<std::size_t>> places(static_cast<std::size_t>(shards));
+  for (std::size_t i = 0; i < numbers.size(); ++i) places[static_cast<std::size_t>(numbers[i] - 1)].push_back(i);
   return places;
 }
 
@@ -38,9 +33,9 @@ std::string quoted(const std::filesystem::path& path) { return shell_words({path
 
 double longest_shard(const Jobs& jobs) {
   double longest = 0;
-  for (int k = 1; k <= jobs.shards; ++k) {
+  for (const std::vector<std::size_t>& runs : runs_of_shards(jobs.plan, jobs.shards)) {
     double seconds = 0;
-    for (const std::size_t i : runs_of_shard(jobs.plan, {k, jobs.shards})) seconds += jobs.plan.runs[i].seconds;
+    for (const std::size_t i : runs) seconds += jobs.plan.runs[i].seconds;
     longest = std::max(longest, seconds);
   }
   return longest;
