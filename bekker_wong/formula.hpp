@@ -15,7 +15,6 @@ namespace soilbin::bekker_wong {
 /// inclines max(0, x) too; of load, speed and pass ln x. W and v: the middle of the range, to one digit.
 struct FormulaTerm {
   std::string text;  ///< for people, units in it
-  std::string code;  ///< the same in C++, of an OperatingCondition `at` (SI)
   std::function<double(const OperatingCondition&)> value;
 };
 
@@ -28,10 +27,5 @@ EffectForm formula_form(const EffectForm& learned, const std::vector<FormulaTerm
 
 /// Where g joins a learned form's model, in words: "force W_n g along the wheel's plane".
 std::string joint_equation(const EffectForm& learned);
-
-/// A file for effects/ with the formula as an entry of the catalogue's form, its weights as defaults. about: lines for
-/// its opening comment.
-std::string proposed_entry(const EffectForm& learned, const std::vector<FormulaTerm>& terms,
-                           const std::vector<double>& weights, const std::vector<std::string>& about);
 
 }  // namespace soilbin::bekker_wong

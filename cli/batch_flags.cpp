@@ -17,7 +17,7 @@ void BatchFlags::add_to(CLI::App& command) {
   add_value(command, "--ask", ask, "N",
             "make nothing: write the next experiments, N chosen at once, to --batch and end with status 3; 0 when none "
             "is left")
-      ->check(whole_number(1));
+      ->check(whole_number(1, 10'000));
   add_value(command, "--batch", batch, "FILE.json",
             "with --ask: the file to write; without: make its experiments, into --store");
   add_value(command, "--shard", shard, "K/N", "with --batch: only the K-th of N parts of it");

@@ -62,7 +62,8 @@ void add_bevameter(CLI::App& app, Session& session) {
   add_value(*command, "soil", options->soil, "SOIL", "a soil of the library, or a YAML file")->required();
   add_file(*command, "--output", options->output, "FILE.yaml", "save the soil with these values");
   add_plot(*command, options->plot, "draw the curves (points) and the fit (lines)");
-  add_value(*command, "--packings", options->packings, "N", "number of beds, 2; their scatter is the error");
+  add_value(*command, "--packings", options->packings, "N", "number of beds, 2; their scatter is the error")
+      ->check(whole_number(1, compare::most_packings));
   command->add_flag("--json", options->json, "soilbin-bevameter/1, in SI");
   options->flags.add_to(*command);
   options->plates.add_to(*command);

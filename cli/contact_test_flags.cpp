@@ -108,8 +108,9 @@ void ContactTestFlags::add_to(CLI::App& command) {
             "how the sheared sample, or the soil bin's bed, settles: loose, medium, dense, or a share of friction; 1");
   add_value(command, "--rolling", rolling, "LAW",
             "law of rolling resistance: elastic_plastic, directional, directional_with_twist; the soil's own");
-  add_value(command, "--across", across, "N", "grains along a side of the board, 16");
-  add_value(command, "--packings", packings, "N", "number of samples of each experiment; shear box 1, board 4");
+  add_value(command, "--across", across, "N", "grains along a side of the board, 16")->check(whole_number(1, 1000));
+  add_value(command, "--packings", packings, "N", "number of samples of each experiment; shear box 1, board 4")
+      ->check(whole_number(1, compare::most_packings));
   add_value(command, "--threads", threads, "N", "number of threads; 0: one for each core, fewer for few grains");
 }
 

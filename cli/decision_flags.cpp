@@ -71,7 +71,7 @@ void DecisionFlags::add_to(CLI::App& command) {
       ->needs(decide)
       ->group(group);
   add_value(command, "--bed-packings", packings, "N", "beds on which each candidate runs, from --seed on; 1")
-      ->check(whole_number(1))
+      ->check(whole_number(1, compare::most_packings))
       ->needs(decide)
       ->group(group);
   const std::vector<CLI::Option*> before = command.get_options();

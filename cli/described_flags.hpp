@@ -62,12 +62,12 @@ class DescribedFlags {
   }
 
   /// These flags once for each combination of the values that they hold (several_values), those of the key `fastest`
-  /// varying fastest. Throws InputError that names the flag.
-  std::vector<DescribedFlags> combinations(const std::string& fastest) const {
+  /// varying fastest. Throws InputError that names the flag, and for more than `most`, before they are made.
+  std::vector<DescribedFlags> combinations(const std::string& fastest, std::size_t most = most_conditions) const {
     std::vector<DescribedFlags> all = {*this};
     const auto multiply = [&](const std::string& key, const std::vector<std::string>& values) {
-      if (values.size() > most_conditions / all.size())
-        throw InputError(fmt::format("{}: more than {} conditions", flag_of(prefix_, key), most_conditions));
+      if (values.size() > most / all.size())
+        throw InputError(fmt::format("{}: more than {} conditions", flag_of(prefix_, key), most));
       std::vector<DescribedFlags> product;
       for (const DescribedFlags& flags : all)
         for (const std::string& value : values) product.emplace_back(flags).texts_[key] = value;

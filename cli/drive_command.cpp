@@ -163,6 +163,7 @@ void add_drive(CLI::App& app, Session& session) {
   options->soil_bin.add_rig_to(*command);
   add_value(*command, "--packings", options->soil_bin.packings, "N",
             "number of beds, from --packing on; answers are means over them; 1")
+      ->check(whole_number(1, compare::most_packings))
       ->group(grains_heading);
   command
       ->add_flag("--ledger", options->ledger,

@@ -171,7 +171,8 @@ void add_element_test(CLI::App& app, Session& session) {
   add_value(*command, "soil", options->soil, "SOIL", "a soil of the library, or a YAML file")->required();
   add_value(*command, "--stress", options->stresses, "STRESS", "normal or confining stress; may be given again")
       ->allow_extra_args(false);
-  add_value(*command, "--packings", options->packings, "N", "direct-shear, triaxial: number of specimens, 1");
+  add_value(*command, "--packings", options->packings, "N", "direct-shear, triaxial: number of specimens, 1")
+      ->check(whole_number(1, compare::most_packings));
   add_value(*command, "--inertial", options->inertial, "I",
             "direct-shear, triaxial: inertial number of the rate, 0.001");
   command->add_flag("--ledger", options->ledger, "direct-shear, triaxial: check the balance of energy (in --json)");

@@ -21,6 +21,9 @@
 namespace soilbin::cli {
 namespace {
 
+/// What a Gaussian process learns from in seconds.
+constexpr long long most_conditions_of_map = 1000;
+
 struct FailureMapOptions {
   std::string study, soil, incline = "longitudinal", store, report, tolerance = "10%";
   std::string load, lug_height, angle, slip;
@@ -79,8 +82,6 @@ int failure_map(const FailureMapOptions& asked, const Session& session) {
   Case question = find_study(session.place, asked.study);
   if (!asked.soil.empty())
     question.scenario.soil.semi_empirical = find_soil(asked.soil, session.place.library).semi_empirical;
-  if (asked.first < 6) throw InputError("--first: 6 conditions or more");
-  if (asked.at_boundary < 0 || asked.fresh < 0) throw InputError("--boundary and --check: 0 or more");
   if (!asked.stored && !asked.store.empty())  // what is only read may lie anywhere
     if (const std::string why = why_not_writable(asked.store); !why.empty()) throw InputError("--store: " + why);
   asked.batch.check(asked.store);
@@ -140,12 +141,16 @@ void add_failure_map(CLI::App& app, Session& session) {
   add_value(*command, "--lug-height", asked->lug_height, "LOW..HIGH", "range of lug heights")->required();
   add_value(*command, "--angle", asked->angle, "LOW..HIGH", "range of the incline or the yaw")->required();
   add_value(*command, "--slip", asked->slip, "LOW..HIGH", "range of slips")->required();
-  add_value(*command, "--first", asked->first, "N", "conditions that fill the ranges evenly; 24");
+  add_value(*command, "--first", asked->first, "N", "conditions that fill the ranges evenly; 24")
+      ->check(whole_number(6, most_conditions_of_map));
   add_value(*command, "--boundary", asked->at_boundary, "N",
-            "further ones, each where the difference may cross the tolerance; 12");
+            "further ones, each where the difference may cross the tolerance; 12")
+      ->check(whole_number(0, most_conditions_of_map));
   add_value(*command, "--rounds", asked->rounds, "N",
-            "further ones for each statement, each where it is most likely wrong; 4");
-  add_value(*command, "--check", asked->fresh, "N", "predict, then run so many conditions that the map has not seen");
+            "further ones for each statement, each where it is most likely wrong; 4")
+      ->check(whole_number(0, most_conditions_of_map));
+  add_value(*command, "--check", asked->fresh, "N", "predict, then run so many conditions that the map has not seen")
+      ->check(whole_number(0, most_conditions_of_map));
   add_value(*command, "--tolerance", asked->tolerance, "SHARE",
             "share of the load beyond which the models count as different; 10 %");
   add_value(*command, "--effect", asked->effects, "ID[:FORM][,PARAMETER=VALUE...]",

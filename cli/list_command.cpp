@@ -228,7 +228,10 @@ int print_effects(bool json) {
   return done;
 }
 
-int list(const std::string& what, bool json, const Session& session) {
+int list(const std::string& what, bool json, bool names, const Session& session) {
+  if (names && json) throw InputError("--names and --json exclude each other");
+  if (names && (what.empty() || what == "effects"))
+    throw InputError("--names lists one shelf\n  hint: soilbin list soils --names");
   if (what.empty()) return print_shelves(json, session.place);
   if (what == "effects") return print_effects(json);
   std::vector<std::string> right = {"effects"};
@@ -236,6 +239,10 @@ int list(const std::string& what, bool json, const Session& session) {
     const std::string name(folder_of(view.shelf));
     right.push_back(name);
     if (name != what) continue;
+    if (names) {
+      for (const std::string& one : session.place.library.names(view.shelf)) fmt::print("{}\n", one);
+      return done;
+    }
     const Listing listing = listing_of(view, session.place);
     if (json)
       print_json({{"format", "soilbin-list/1"}, {name, listing.json}});
@@ -261,7 +268,9 @@ void add_list(CLI::App& app, Session& session) {
   add_value(*command, "what", *what, "WHAT",
             "soils, tires, effects, studies or measured; without it: every name, with a line on what it is");
   command->add_flag("--json", *json, "as JSON, in SI");
-  command->callback([=, &session] { session.action = [=, &session] { return list(*what, *json, session); }; });
+  const auto names = std::make_shared<bool>(false);
+  command->add_flag("--names", *names, "of soils, tires, studies or measured the names alone, a line each");
+  command->callback([=, &session] { session.action = [=, &session] { return list(*what, *json, *names, session); }; });
 }
 
 }  // namespace soilbin::cli

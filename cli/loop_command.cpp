@@ -18,7 +18,7 @@ namespace soilbin::cli {
 namespace {
 
 struct LoopOptions {
-  std::string campaign, report, model, proposal;
+  std::string campaign, report, model;
   std::vector<std::string> limits;
   bool json = false, details = false, next = false;
   int folds = 5;
@@ -74,11 +74,6 @@ int loop(const LoopOptions& asked, const Session& session) {
                [&] { return compare::loop_page(campaign, answer, doubts.all, doubts.columns, session.command); });
   outputs.file(asked.model,
                [&] { return write_case(compare::resolved_model(campaign, answer), session.place.effects); });
-  if (!asked.proposal.empty() && !answer.formula)
-    print_warnings({"no formula does as well as a learned effect here: nothing is proposed, " + asked.proposal +
-                    " is not written"});
-  else
-    outputs.file(asked.proposal, [&] { return compare::proposed_effect(answer); });
   if (asked.json) {
     nlohmann::ordered_json document = compare::to_json(answer);
     if (!doubts.columns.empty()) document["column_doubts"] = doubts.columns;
@@ -100,8 +95,6 @@ void add_loop(CLI::App& app, Session& session) {
   add_file(*command, "--report", asked->report, "FILE.html", "write the report as one page");
   add_file(*command, "--save-model", asked->model, "FILE.yaml",
            "write soil and effects as a case that other commands take");
-  add_file(*command, "--propose", asked->proposal, "FILE.cpp",
-           "write a learned effect's formula, where there is one, as an entry of the catalogue of effects");
   command->add_flag("--next", asked->next, "say only what to measure next");
   add_limits_of_the_rig(
       *command, asked->limits,

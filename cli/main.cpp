@@ -8,12 +8,14 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "cli/command_words.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
+#include "cli/standard_streams.hpp"
 #include "cli/versions.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -121,7 +123,11 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
+    if (error.get_exit_code() == 0) {
+      std::ostringstream asked;  // help or version
+      app.exit(error, asked, asked);
+      return fmt::print("{}", asked.str()), done;
+    }
     return refuse(refusal_of(error, words.front().starts_with("-") ? "" : words.front() + " "));
   }
   return session.action();
@@ -132,6 +138,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace soilbin;
+  cli::guard_standard_streams();
   try {
     cli::catch_interrupts();
     const int status = cli::run(argc, argv);

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <ctime>
 
+#include "cli/standard_streams.hpp"
 #include "scenario/file_lock.hpp"
 
 namespace soilbin::cli {
@@ -68,11 +69,9 @@ bool interrupt_asked() { return stop_asked != 0; }
 
 void show_progress_line(const std::string& text) {
   if (isatty(STDERR_FILENO) == 1) {
-    fmt::print(stderr, "\r\033[K{}", text);
-    std::fflush(stderr);
+    rewrite_line(text);
   } else if (!text.empty() && a_word_is_due()) {
     fmt::print(stderr, "{}\n", text);
-    std::fflush(stderr);
   }
 }
 

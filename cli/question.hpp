@@ -27,6 +27,8 @@ class ConditionFlags {
     flags_.add_to(app, "Condition (several values: 0,10,20%, or 0%..60%, or 0%..60%:5% in steps)", "", without);
   }
   bool given(const std::string& key) const { return flags_.given(key); }
+  /// More combinations of the values given than these are refused; most_conditions.
+  void allow(std::size_t most) { most_ = most; }
 
   /// A condition for each combination of the values given, slip varying fastest. Throws InputError that names the flag.
   std::vector<OperatingCondition> conditions() const;
@@ -40,9 +42,10 @@ class ConditionFlags {
  private:
   using Flags = DescribedFlags<OperatingCondition>;
   static Study picked(const Flags& flags, const Study& study, const Tire& tire);
-  std::vector<Flags> combinations() const { return flags_.combinations("slip"); }
+  std::vector<Flags> combinations() const { return flags_.combinations("slip", most_); }
 
   Flags flags_;
+  std::size_t most_ = most_conditions;
 };
 
 /// --no-assumed-sd: values of the soil whose standard deviation its file only assumes count as exact.
@@ -83,6 +86,9 @@ class Question {
   /// `needed`: keys of the condition that must be given where no case is; `without`: those that have no flag.
   explicit Question(CLI::App& app, std::vector<std::string> needed = {"load", "slip"},
                     const std::vector<std::string>& without = {});
+
+  /// As ConditionFlags::allow.
+  void allow_conditions(std::size_t most) { condition_.allow(most); }
 
   /// Throws InputError that names the flag that is missing or wrong.
   Case ask(const Workplace& place) const;

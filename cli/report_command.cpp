@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/command_words.hpp"
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
@@ -28,15 +29,14 @@ struct ReportOptions {
   std::string output = "report.html", title = "soilbin report";
 };
 
-std::string quoted(const std::string& word) { return word.find(' ') == std::string::npos ? word : "'" + word + "'"; }
-
 std::string command_of(const ReportOptions& options) {
-  std::string command = "soilbin report";
-  for (const std::string& study : options.studies) command += " " + quoted(study);
-  if (!options.campaigns.empty()) command += " --measured";
-  for (const std::string& campaign : options.campaigns) command += " " + quoted(campaign);
-  for (const std::string& link : options.links) command += " --link " + quoted(link);
-  return command + " --title " + quoted(options.title) + " --output " + quoted(options.output);
+  std::vector<std::string> words = {"report"};
+  words.insert(words.end(), options.studies.begin(), options.studies.end());
+  if (!options.campaigns.empty()) words.emplace_back("--measured");
+  words.insert(words.end(), options.campaigns.begin(), options.campaigns.end());
+  for (const std::string& link : options.links) words.insert(words.end(), {"--link", link});
+  words.insert(words.end(), {"--title", options.title, "--output", options.output});
+  return command_line(words);
 }
 
 /// Whether a name is a campaign's, on the disk or in the library.

@@ -198,6 +198,7 @@ void SoilBinFlags::add_starting_to(CLI::App& command) { add(command, starting_fl
 
 void SoilBinFlags::add_packings_to(CLI::App& command) {
   add_value(command, "--packings", packings, "N", "number of beds, from --packing on; answers are means over them; 1")
+      ->check(whole_number(1, compare::most_packings))
       ->group(grains_heading);
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -45,6 +46,13 @@ std::vector<std::string> typed_again(const CLI::App& command, const CLI::App* un
   return words;
 }
 
+/// The folder of a study's jobs, here, whatever the study is called.
+std::string usual_folder(const Study& study) {
+  std::string name = "sweep-" + study.name;
+  std::ranges::replace(name, '/', '-');
+  return name;
+}
+
 compare::Jobs jobs_of(const SweepOptions& asked, const Case& question, const CLI::App& command) {
   compare::Jobs jobs;
   jobs.on = asked.on == "slurm" ? compare::JobsOn::slurm : compare::JobsOn::local;
@@ -53,10 +61,13 @@ compare::Jobs jobs_of(const SweepOptions& asked, const Case& question, const CLI
   jobs.plan = compare::plan_of(question, settings_of(flags), flags.runs(question), keeping_of(flags));
   const double at_least = asked.at_least.empty() ? compare::usual_seconds(jobs.on)
                                                  : read_flag("--at-least", asked.at_least, {"s", zero_or_more});
+  if (asked.shards > static_cast<int>(jobs.plan.runs.size()))
+    throw InputError(fmt::format("--shards {}: a shard makes a run or more, and the study has {}", asked.shards,
+                                 jobs.plan.runs.size()));
   jobs.shards = asked.shards > 0 ? asked.shards : compare::shards_for(jobs.plan, at_least);
   jobs.at_once = asked.at_once > 0 ? asked.at_once : compare::side_by_side(all_cores(), flags.threads);
   jobs.program = this_program(), jobs.here = fs::current_path();
-  jobs.folder = fs::absolute(asked.output.empty() ? "sweep-" + question.study.name : asked.output).lexically_normal();
+  jobs.folder = fs::absolute(asked.output.empty() ? usual_folder(question.study) : asked.output).lexically_normal();
   jobs.beds = fs::absolute(folder_of_beds()).lexically_normal();
   CLI::App bed;
   SoilBinFlags of_bed;
@@ -116,7 +127,7 @@ void add_sweep(CLI::App& app, Session& session) {
                         compare::usual_seconds(compare::JobsOn::local) / 60));
   add_value(*command, "--shards", asked->shards, "N", "number of jobs, in place of --at-least")->check(whole_number(1));
   add_value(*command, "--at-once", asked->at_once, "N", "local: processes side by side; as many as cores")
-      ->check(whole_number(1));
+      ->check(whole_number(1, 1000));
   command->add_flag("--submit", asked->submit, "start it now");
   command->add_flag("--json", asked->json, "status: as JSON, in SI");
   asked->conditions.add_to(*command);

@@ -53,7 +53,7 @@ ModelChoice read_model(const YamlNode& node, const Soil& soil, const EffectVocab
         read_choice<ModelKind>(*value_of(node, "model", Need::required, "bekker_wong or dem", reading), reading);
     read_effects_and_errors(node, effects, reading, choice);
     if (const YamlNode* label = value_of(node, "label", Need::optional, "for tables and plots", reading))
-      choice.label = read_text(*label, reading);
+      choice.label = read_name(*label, reading);
   }
   check_soil_for(choice, soil, node, reading);
   return choice;
@@ -83,7 +83,7 @@ Study read_study(const YamlNode& node, const Case& about, const EffectVocabulary
   Study study;
   study.name = about.name;
   if (const YamlNode* name = value_of(node, "name", Need::optional, "what to call the study", reading))
-    study.name = read_text(*name, reading);
+    study.name = read_name(*name, reading);
   study.models =
       read_models(value_of(node, "models", Need::optional, "list of models", reading), node, soil, effects, reading);
   ConditionGrid grid = read_conditions(

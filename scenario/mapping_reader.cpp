@@ -51,6 +51,14 @@ std::string read_text(const YamlNode& node, const Reading& reading) {
   return node.scalar;
 }
 
+std::string read_name(const YamlNode& node, const Reading& reading) {
+  std::string name = read_text(node, reading);
+  while (!name.empty() && name.back() == '\n') name.pop_back();  // of a block
+  if (name.find_first_of("\n\r\t") != name.npos)
+    reading.refuse(node, "a name is one line, without tabs", "longer texts go behind 'description'");
+  return name;
+}
+
 Quantity read_scalar(const YamlNode& node, const Measure& measure, const Reading& reading) {
   if (!node.is_scalar()) {
     const Unit unit = parse_unit(measure.unit, reading.n);

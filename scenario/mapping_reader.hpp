@@ -39,7 +39,10 @@ void expect_keys(const YamlNode& mapping, const std::vector<std::string>& keys, 
 const YamlNode* value_of(const YamlNode& mapping, const std::string& key, Need need, const std::string& meaning,
                          const Reading& reading);
 
+/// A text of any number of lines: a description.
 std::string read_text(const YamlNode& node, const Reading& reading);
+/// A text of one line: a name, which is printed, becomes part of commands and names files.
+std::string read_name(const YamlNode& node, const Reading& reading);
 /// A scalar with its unit, for instance one of a list.
 Quantity read_scalar(const YamlNode& node, const Measure& measure, const Reading& reading);
 /// A scalar, or {value, source}.
@@ -67,7 +70,8 @@ class ReadInto {
   ReadInto(const YamlNode& mapping, T& into, Reading& reading) : mapping_(mapping), into_(into), reading_(reading) {}
 
   void text(const char* key, std::string T::*member, Need need, const char* meaning) {
-    if (const YamlNode* node = find(key, need, meaning)) into_.*member = read_text(*node, reading_);
+    if (const YamlNode* node = find(key, need, meaning))
+      into_.*member = may_have_lines(key) ? read_text(*node, reading_) : read_name(*node, reading_);
   }
 
   template <class N>
@@ -123,6 +127,11 @@ class ReadInto {
   }
 
  private:
+  /// Of the keys that texts stand behind: what people write sentences for.
+  static bool may_have_lines(std::string_view key) {
+    return key == "description" || key == "source" || key == "quote" || key == "title" || key == "chosen";
+  }
+
   const YamlNode* find(const char* key, Need need, const char* meaning) const {
     return value_of(mapping_, key, need, meaning, reading_);
   }

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 
+#include "scenario/errors.hpp"
+#include "scenario/source_text.hpp"
+
 namespace soilbin {
 namespace {
 
@@ -23,6 +26,8 @@ bool is_plain(std::string_view text) {
 }  // namespace
 
 std::string yaml_scalar(std::string_view text) {
+  if (find_control(text) != text.npos)
+    throw InputError("a text with control characters can't be written: nobody reads it");
   if (is_plain(text)) return std::string(text);
   std::string quoted = "\"";
   for (const char c : text) {

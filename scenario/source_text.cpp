@@ -32,9 +32,11 @@ std::size_t character_length(std::string_view text) {
   return overlong || surrogate || too_large ? 0 : length;
 }
 
-bool is_control(char c) {
-  const auto byte = static_cast<unsigned char>(c);
-  return (byte < 0x20U && c != '\t' && c != '\n' && c != '\r') || byte == 0x7FU;
+/// Whether a text begins with a control character that no text needs.
+bool begins_with_control(std::string_view text) {
+  const auto byte = static_cast<unsigned char>(text.front());
+  const bool of_two_bytes = byte == 0xC2U && text.size() > 1 && static_cast<unsigned char>(text[1]) < 0xA0U;
+  return (byte < 0x20U && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7FU || of_two_bytes;
 }
 
 }  // namespace
@@ -76,7 +78,7 @@ SourceText make_source_text(std::string text, const std::string& file) {
   const std::string_view all = source.text;
   for (std::size_t at = 0; at < all.size();) {
     const std::size_t length = character_length(all.substr(at, 4));
-    if (length != 0 && !is_control(all[at])) {
+    if (length != 0 && !begins_with_control(all.substr(at, 2))) {
       at += length;
       continue;
     }
@@ -92,6 +94,12 @@ SourceText make_source_text(std::string text, const std::string& file) {
 SourceText read_source_text(const std::filesystem::path& path, std::size_t largest) {
   const std::string name = path.string();
   return make_source_text(read_bytes(path, largest), name.substr(0, name.find('\n')));
+}
+
+std::size_t find_control(std::string_view text) {
+  for (std::size_t at = 0; at < text.size(); ++at)
+    if (begins_with_control(text.substr(at, 2))) return at;
+  return std::string_view::npos;
 }
 
 std::string clipped(std::string_view word) {

@@ -30,6 +30,10 @@ SourceText make_source_text(std::string text, const std::string& file);
 /// device, a file that is too large, and a text that make_source_text refuses.
 SourceText read_source_text(const std::filesystem::path& path, std::size_t largest);
 
+/// Where a text holds its first control character, U+0000 .. U+001F or U+007F .. U+009F but for tab, line feed and
+/// carriage return; npos for none.
+std::size_t find_control(std::string_view text);
+
 /// A word from a file, cut to a length that fits in a message.
 std::string clipped(std::string_view word);
 

@@ -37,6 +37,9 @@ class TreeBuilder : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
     YamlNode node = make(Kind::scalar, mark, tag, anchor);
+    if (find_control(value) != std::string::npos)  // written as an escape, or the file would have been refused
+      source_.refuse(node.offset, "a control character, such as \"\\e\" or \"\\0\", is no part of a text",
+                     "leave it out");
     if (tag == "!" && !is_closed(node.offset)) source_.refuse(node.offset, "a quote is opened here and never closed");
     node.scalar = value;
     place(std::move(node));

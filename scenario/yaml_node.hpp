@@ -31,8 +31,8 @@ struct YamlNode {
 inline constexpr std::size_t largest_yaml = 1U << 20U;
 
 /// Reads one document. Throws InputError with line and column for broken YAML, a key that appears twice or is not a
-/// scalar, anchors, aliases and tags (the formats of soilbin have none), nesting deeper than 24, more than 100,000
-/// nodes, a text beyond largest_yaml, an empty text and a second document.
+/// scalar, anchors, aliases and tags (the formats of soilbin have none), control characters in a quoted text, nesting
+/// deeper than 24, more than 100,000 nodes, a text beyond largest_yaml, an empty text and a second document.
 YamlNode parse_yaml(const SourceText& source);
 
 }  // namespace soilbin

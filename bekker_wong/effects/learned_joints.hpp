@@ -72,8 +72,6 @@ struct LearnedStrength {
 struct LearnedJoint {
   std::string_view name, equation;
   std::unique_ptr<const Effect> (*make)(LearnedChange);
-  /// The same as a member function of an effect of the catalogue; g(at) stands for a g.
-  std::string_view code;
 };
 
 template <class Where>
@@ -82,32 +80,12 @@ std::unique_ptr<const Effect> joined(LearnedChange g) {
 }
 
 inline constexpr std::array<LearnedJoint, 6> learned_joints = {{
-    {"drawbar_pull", "force W_n a g along the wheel's plane", joined<LearnedPull>,
-     R"(  void added_forces(ForceLedger& ledger, const Rolling& rolling) const override {
-    ledger.add({.name = "proposed", .forward = rolling.around.normal_load * g(rolling.around.at)});
-  })"},
-    {"lateral_force", "force W_n a g sin(yaw) across it", joined<LearnedSide>,
-     R"(  void added_forces(ForceLedger& ledger, const Rolling& rolling) const override {
-    const OperatingCondition& at = rolling.around.at;
-    ledger.add({.name = "proposed", .lateral = rolling.around.normal_load * g(at) * std::sin(at.yaw)});
-  })"},
-    {"torque", "torque W_n r a g", joined<LearnedTurning>,
-     R"(  void added_forces(ForceLedger& ledger, const Rolling& rolling) const override {
-    const double arm = rolling.outline.radius;
-    ledger.add({.name = "proposed", .torque = rolling.around.normal_load * arm * g(rolling.around.at)});
-  })"},
-    {"sinkage", "measured sinkage times exp(a g)", joined<LearnedDepth>,
-     R"(  void sensor(Reading& reading, const Surroundings& around) const override {
-    reading.sinkage *= std::exp(g(around.at));
-  })"},
-    {"stiffness", "k times exp(a g)", joined<LearnedStiffness>,
-     R"(  void soil(SoilValues& soil, const Surroundings& around) const override {
-    scale_stiffness(soil, std::exp(g(around.at)));
-  })"},
-    {"strength", "c and tan(phi) times exp(a g)", joined<LearnedStrength>,
-     R"(  void soil(SoilValues& soil, const Surroundings& around) const override {
-    scale_strength(soil, std::exp(g(around.at)));
-  })"},
+    {"drawbar_pull", "force W_n a g along the wheel's plane", joined<LearnedPull>},
+    {"lateral_force", "force W_n a g sin(yaw) across it", joined<LearnedSide>},
+    {"torque", "torque W_n r a g", joined<LearnedTurning>},
+    {"sinkage", "measured sinkage times exp(a g)", joined<LearnedDepth>},
+    {"stiffness", "k times exp(a g)", joined<LearnedStiffness>},
+    {"strength", "c and tan(phi) times exp(a g)", joined<LearnedStrength>},
 }};
 
 }  // namespace soilbin::bekker_wong

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "bekker_wong/model.hpp"
+#include "cli/progress.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/plot.hpp"
 #include "compare/sweep/answer_sheets.hpp"
@@ -37,8 +38,11 @@ Case swept_over(Case question, const std::pair<double, double>& slips) {
 ServedAnswer answer_to(Asked asked, const std::pair<double, double>& slips) {
   ServedAnswer one{std::move(asked), {}, {}, {}};
   one.swept = swept_over(one.asked.question, slips);
-  one.point = compare::run_study(one.asked.question);
-  one.curves = compare::run_study(one.swept, {}, make_curve_model);
+  const compare::Progress until_asked = [](std::size_t, std::size_t) {
+    if (interrupt_asked()) throw Interrupted();
+  };
+  one.point = compare::run_study(one.asked.question, until_asked);
+  one.curves = compare::run_study(one.swept, until_asked, make_curve_model);
   return one;
 }
 

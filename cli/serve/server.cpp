@@ -11,7 +11,6 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/redirect_error.hpp>
-#include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
@@ -21,6 +20,7 @@
 #include <list>
 #include <optional>
 
+#include "cli/progress.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {
@@ -53,9 +53,19 @@ bool names_this_machine(beast::string_view host) {
   return digits && port.size() <= 5 && (name == "127.0.0.1" || name == "localhost");
 }
 
+/// Whether another site's page asks, as browsers tell; a link that opens the live page itself is none of this.
+bool is_foreign(const Request& request) {
+  const beast::string_view site = request["Sec-Fetch-Site"];
+  const bool opens_page =
+      request["Sec-Fetch-Dest"] == "document" && (request.target() == "/" || request.target().starts_with("/?"));
+  return !site.empty() && site != "same-origin" && site != "none" && !opens_page;
+}
+
 Reply reply_to_request(const Request& request, const Answering& answer) {
   if (!names_this_machine(request[http::field::host]))
     return refusal(403, "this server answers its own machine only\n  hint: open the address that it printed");
+  if (is_foreign(request))
+    return refusal(403, "this server answers its own page only\n  hint: open the address that it printed");
   if (request.method() != http::verb::get && request.method() != http::verb::head)
     return refusal(405, "only GET is answered");
   const beast::string_view target = request.target();
@@ -194,14 +204,24 @@ tcp::acceptor listen(asio::io_context& context, unsigned short port) {
   }
 }
 
+/// Ends the service soon after Ctrl-C (cli/progress.hpp), by which an answer under way is given up as well.
+asio::awaitable<void> stop_when_asked(asio::io_context& context) {
+  constexpr std::chrono::milliseconds between_looks{100};
+  asio::steady_timer timer(context);
+  while (!interrupt_asked()) {
+    timer.expires_after(between_looks);
+    co_await timer.async_wait(asio::use_awaitable);
+  }
+  context.stop();
+}
+
 }  // namespace
 
 void serve_http(unsigned short port, const std::function<void(const std::string& address)>& listening,
                 const Answering& answer) {
   asio::io_context context(1);
   tcp::acceptor acceptor = listen(context, port);
-  asio::signal_set signals(context, SIGINT, SIGTERM);
-  signals.async_wait([&](const boost::system::error_code&, int) { context.stop(); });
+  asio::co_spawn(context, stop_when_asked(context), asio::detached);
   Connections connections;
   asio::co_spawn(context, welcome(acceptor, connections, answer), asio::detached);
   listening(fmt::format("http://127.0.0.1:{}/", acceptor.local_endpoint().port()));

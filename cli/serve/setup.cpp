@@ -21,6 +21,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Of a query's values, which are to leave one.
+constexpr std::size_t most_asked_at_once = 100;
+
 constexpr double usual_slip = 0.2;  ///< where a page starts, as near as the case allows
 
 /// Each member that has a value as a flag.
@@ -116,7 +119,8 @@ Asked Setup::put_together(const std::vector<Flag>& query) const {
   for (const Flag& flag : query) asked.words.push_back("--" + flag.first + "=" + flag.second);
   CLI::App app("", asked.words.front());
   app.set_help_flag("");
-  const Question question(app);
+  Question question(app);
+  if (!query.empty()) question.allow_conditions(most_asked_at_once);  // a server is not kept busy by one address
   if (const std::string problem = unknown_flag(app, asked.words); !problem.empty()) throw InputError(problem);
   try {
     app.parse(std::vector<std::string>(asked.words.rbegin(), asked.words.rend() - 1));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 
 #include "compare/experiments/jobs.hpp"
 #include "compare/report/javascript.hpp"
@@ -16,17 +17,12 @@ namespace soilbin::compare {
 /// The files of compare/experiments/scripts; made by the build.
 std::vector<EmbeddedFile> job_scripts();
 
-std::vector<std::size_t> runs_of_shard(const RunPlan& plan, const Shard& shard) {
+std::vector<std::vector<std::size_t>> runs_of_shards(const RunPlan& plan, int shards) {
   std::vector<AskedRun> list;
   for (const PlannedRun& run : plan.runs) list.push_back(run.run);
-  std::vector<std::size_t> places;
-  std::size_t from = 0;
-  for (int k = 1; k <= shard.number; ++k) {  // shards are stretches of the list, one behind the other
-    const std::size_t size = shard_of(list, {k, shard.of}).size();
-    if (k == shard.number)
-      for (std::size_t i = from; i < from + size; ++i) places.push_back(i);
-    from += size;
-  }
+  const std::vector<int> numbers = shard_numbers(list, shards);
+  std::vector<std::vector<std::size_t>> places(static_cast<std::size_t>(shards));
+  for (std::size_t i = 0; i < numbers.size(); ++i) places[static_cast<std::size_t>(numbers[i] - 1)].push_back(i);
   return places;
 }
 
@@ -37,9 +33,9 @@ std::string quoted(const std::filesystem::path& path) { return shell_words({path
 
 double longest_shard(const Jobs& jobs) {
   double longest = 0;
-  for (int k = 1; k <= jobs.shards; ++k) {
+  for (const std::vector<std::size_t>& runs : runs_of_shards(jobs.plan, jobs.shards)) {
     double seconds = 0;
-    for (const std::size_t i : runs_of_shard(jobs.plan, {k, jobs.shards})) seconds += jobs.plan.runs[i].seconds;
+    for (const std::size_t i : runs) seconds += jobs.plan.runs[i].seconds;
     longest = std::max(longest, seconds);
   }
   return longest;
@@ -59,7 +55,7 @@ std::string script_head(const Jobs& jobs) {
       "set -u\n"
       "cd {here}\n"
       "export SOILBIN_BEDS={bed_folder}\n",
-      fmt::arg("study", plan.study), fmt::arg("runs", counted(plan.runs.size(), "run")),
+      fmt::arg("study", quoted(std::vector{plan.study})), fmt::arg("runs", counted(plan.runs.size(), "run")),
       fmt::arg("beds", counted(plan.beds, "bed")),
       fmt::arg("shards", counted(static_cast<std::size_t>(jobs.shards), "shard")),
       fmt::arg("hours", plan.core_hours_left()), fmt::arg("script", quoted(jobs.folder / "sweep.sh")),
@@ -71,15 +67,18 @@ std::string script_head(const Jobs& jobs) {
                             quoted(jobs.bed_words), quoted(jobs.run_words));
 }
 
-/// A file of compare/experiments/scripts, its places "@name@" filled in.
-std::string filled(const char* script, const std::vector<std::pair<const char*, std::string>>& places) {
-  std::string text = embedded(job_scripts(), script);
-  for (const auto& [name, value] : places) {
-    const std::string place = fmt::format("@{}@", name);
-    for (std::size_t at = text.find(place); at != text.npos; at = text.find(place, at + value.size()))
-      text.replace(at, place.size(), value);
+/// A file of compare/experiments/scripts, its places "@name@" filled in; places in a value stay as they are.
+std::string filled(const char* script, const std::map<std::string, std::string>& places) {
+  const std::string text = embedded(job_scripts(), script);
+  std::string all;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t begin = std::min(text.find('@', at), text.size()), end = text.find('@', begin + 1);
+    all += text.substr(at, begin - at);
+    const auto place = end == text.npos ? places.end() : places.find(text.substr(begin + 1, end - begin - 1));
+    all += place != places.end() ? place->second : text.substr(begin, 1);
+    at = place != places.end() ? end + 1 : begin + 1;
   }
-  return text;
+  return all;
 }
 
 std::string script_of(const Jobs& jobs) {

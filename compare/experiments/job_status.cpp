@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <map>
@@ -36,6 +37,8 @@ WrittenJobs read_jobs(const fs::path& folder) {
     if (document.at("format") != jobs_format)
       throw InputError(fmt::format("{}: expected the format '{}'", file.string(), jobs_format));
     WrittenJobs jobs{document.at("on") == "slurm", document.at("shards").get<int>(), {document.at("study"), {}}};
+    if (jobs.shards < 1 || jobs.shards > static_cast<int>(std::max<std::size_t>(document.at("runs").size(), 1)))
+      throw InputError(fmt::format("{}: {} shards of {} runs", file.string(), jobs.shards, document.at("runs").size()));
     for (const Json& row : document.at("runs"))
       jobs.plan.runs.push_back({{condition_from_json(row, file.string()), row.at("packing").get<std::uint64_t>(),
                                  row.at("half_step").get<bool>()},
@@ -91,13 +94,14 @@ std::map<int, std::string> shards_at_work(const fs::path& folder, const WrittenJ
   return states;
 }
 
+/// `runs`: the shard's, places in the plan.
 ShardStatus shard_status(const fs::path& folder, const WrittenJobs& jobs, int number,
-                         const std::map<int, std::string>& at_work) {
+                         const std::vector<std::size_t>& runs, const std::map<int, std::string>& at_work) {
   ShardStatus status;
   const fs::path file = shard_record(folder, {number, jobs.shards});
   Record record;
   if (fs::exists(file)) record = read_record(file);
-  for (const std::size_t i : runs_of_shard(jobs.plan, {number, jobs.shards})) {
+  for (const std::size_t i : runs) {
     const PlannedRun& planned = jobs.plan.runs[i];
     const RecordedRun* run = find_run(record, planned.run);
     ++status.runs;
@@ -133,8 +137,10 @@ JobStatus job_status(const fs::path& folder) {
   const std::map<int, std::string> at_work = shards_at_work(folder, jobs);
   JobStatus status{.folder = folder, .study = jobs.plan.study};
   double planned = 0, taken = 0;
+  const std::vector<std::vector<std::size_t>> runs = runs_of_shards(jobs.plan, jobs.shards);
   for (int k = 1; k <= jobs.shards; ++k) {
-    const ShardStatus& shard = status.shards.emplace_back(shard_status(folder, jobs, k, at_work));
+    const ShardStatus& shard =
+        status.shards.emplace_back(shard_status(folder, jobs, k, runs[static_cast<std::size_t>(k - 1)], at_work));
     status.runs += shard.runs, status.recorded += shard.recorded, status.without_result += shard.without_result;
     status.seconds_left += shard.seconds_left, planned += shard.seconds_planned, taken += shard.seconds_taken;
   }

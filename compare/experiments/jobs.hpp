@@ -43,8 +43,8 @@ constexpr int side_by_side(int cores, int threads) { return cores > threads ? co
 /// than there are runs.
 int shards_for(const RunPlan& plan, double at_least);
 
-/// Indices into plan.runs of a shard's runs.
-std::vector<std::size_t> runs_of_shard(const RunPlan& plan, const Shard& shard);
+/// By shard, from the first on: indices into plan.runs of its runs.
+std::vector<std::vector<std::size_t>> runs_of_shards(const RunPlan& plan, int shards);
 
 /// The record of a shard, below the jobs' folder.
 std::filesystem::path shard_record(const std::filesystem::path& folder, const Shard& shard);

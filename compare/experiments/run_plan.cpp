@@ -82,14 +82,7 @@ RunCosts::RunCosts(const Scenario& scenario, const dem::DemSettings& settings, c
 }
 
 double RunCosts::steps(const AskedRun& run) const {
-  const dem::Rig& rig = settings_.rig;
-  const OperatingCondition& at = run.at;
-  const double way = dem::way_in_bin(recipe_.size, scenario_.tire, rig);
-  const bool inclined = at.longitudinal_incline != 0 || at.transverse_incline != 0;
-  const double driven = (way - at.speed * rig.starting / 2) / at.speed;
-  const double time =
-      (inclined ? rig.tilting : 0.0) + at.pass * (rig.lowering + rig.resting + rig.starting + std::max(0.0, driven));
-  return time / dem::step_of(recipe_, rig) * (run.half_step ? 2 : 1);
+  return dem::DemModel(settings_).expected_steps(scenario_, run.at) * (run.half_step ? 2 : 1);
 }
 
 double RunCosts::bed_seconds() const {

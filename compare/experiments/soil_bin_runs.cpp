@@ -152,6 +152,7 @@ dem::DemSettings at_half_step(dem::DemSettings settings, const Scenario& scenari
 }
 
 std::vector<std::uint64_t> packings_from(const dem::DemSettings& settings, int packings) {
+  if (packings > most_packings) throw InputError(fmt::format("{} packings: {} at most", packings, most_packings));
   std::vector<std::uint64_t> seeds;
   for (int k = 0; k < packings; ++k) seeds.push_back(settings.packing + static_cast<std::uint64_t>(k));
   return seeds;
@@ -164,14 +165,20 @@ TestStep test_of_step(const Case& question, int packings, std::optional<bool> as
 
 std::vector<AskedRun> list_of(const Case& question, const dem::DemSettings& settings, int packings,
                               std::optional<bool> test) {
+  const std::size_t conditions = question.study.conditions.size();
+  if (conditions * static_cast<std::size_t>(std::max(packings, 1)) > most_runs)  // before the list is built
+    throw InputError(
+        fmt::format("{} conditions on {} packings are more than {} runs of grains", conditions, packings, most_runs));
   return run_list(question.study.conditions, packings_from(settings, packings), test_of_step(question, packings, test));
 }
 
 std::vector<AskedRun> runs_of(const Case& question, const dem::DemSettings& settings, int packings,
                               std::optional<bool> test) {
-  dem::DemModel(settings).check(question.scenario);
-  for (const OperatingCondition& at : question.study.conditions) dem::wheel_motion(at, question.scenario.tire.radius);
-  return list_of(question, settings, packings, test);
+  const dem::DemModel model(settings);
+  model.check(question.scenario);
+  std::vector<AskedRun> list = list_of(question, settings, packings, test);
+  for (const OperatingCondition& at : question.study.conditions) model.check(question.scenario, at);
+  return list;
 }
 
 void make_runs(const std::vector<AskedRun>& list, const dem::DemSettings& settings, const Case& question,

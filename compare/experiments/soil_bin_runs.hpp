@@ -56,7 +56,11 @@ RunOnce run_once(const dem::DemSettings& settings, const Case& question, const E
 /// The settings with half the time step, on the same beds.
 dem::DemSettings at_half_step(dem::DemSettings settings, const Scenario& scenario);
 
-/// Seeds of so many packings, from that of the settings on.
+/// Most packings that a command takes, and most runs of one study.
+inline constexpr int most_packings = 10'000;
+inline constexpr std::size_t most_runs = 20'000;
+
+/// Seeds of so many packings, from that of the settings on. Throws InputError for more than most_packings.
 std::vector<std::uint64_t> packings_from(const dem::DemSettings& settings, int packings);
 
 /// A study with so many runs is recorded only after a test of its time step, which costs three of them.
@@ -66,6 +70,7 @@ inline constexpr std::size_t runs_that_pay_a_test = 12;
 TestStep test_of_step(const Case& question, int packings, std::optional<bool> asked);
 
 /// The runs of a question's conditions on so many packings (run_list), with a test of the step as test_of_step says.
+/// Throws InputError for more than most_runs.
 std::vector<AskedRun> list_of(const Case& question, const dem::DemSettings& settings, int packings,
                               std::optional<bool> test = {});
 

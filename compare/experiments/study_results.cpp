@@ -78,9 +78,28 @@ std::unique_ptr<const Model> grain_model(const StudyGrains& grains, const Case& 
                         on_run);
 }
 
+namespace {
+
+/// Throws InputError for a run without end, which would keep the others from theirs. What else is wrong with a
+/// condition is told as its answer.
+void refuse_endless_runs(const StudyGrains& grains, const Case& question) {
+  const dem::DemModel model(grains.settings);
+  for (const OperatingCondition& at : question.study.conditions) {
+    try {
+      dem::wheel_motion(at, question.scenario.tire.radius);
+    } catch (const InputError&) {
+      continue;
+    }
+    model.check(question.scenario, at);
+  }
+}
+
+}  // namespace
+
 StudyResults answer_study(const Case& question, const Case& whole, const StudyGrains& grains,
                           const EffectVocabulary& effects, const BeforeRun& before, const Progress& progress) {
   StudyResults results;
+  if (asks(question.study, ModelKind::dem) && !grains.recorded) refuse_endless_runs(grains, question);
   if (asks(question.study, ModelKind::dem) && !grains.keeping.record.empty())
     make_runs(grains.list, grains.settings, whole, effects, grains.keeping, before);
   results.study = run_study(question, progress, [&](ModelKind kind) {
@@ -94,6 +113,7 @@ StudyResults answer_study(const Case& question, const Case& whole, const StudyGr
 GrainSideRuns run_grain_side(const Case& question, const StudyGrains& grains, const EffectVocabulary& effects,
                              const Progress& progress) {
   GrainSideRuns of;
+  if (!grains.recorded) refuse_endless_runs(grains, question);
   const auto model = grain_model(grains, question, effects, [&](const RecordedRun& run) { of.runs.push_back(run); });
   sweep(*model, question.scenario, question.study.conditions, progress);
   of.grains =

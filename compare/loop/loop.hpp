@@ -149,9 +149,6 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options);
 /// The answer as JSON, soilbin-loop/1.
 nlohmann::ordered_json to_json(const LoopAnswer& answer);
 
-/// The formula as a file for the catalogue of effects (bekker_wong/effects); empty where there is none.
-std::string proposed_effect(const LoopAnswer& answer);
-
 /// What stands behind it: p-values, chi2, evidence, every set of effects that competed, the choice of each fold.
 nlohmann::ordered_json details_json(const LoopAnswer& answer);
 

@@ -1,12 +1,9 @@
 // The loop's answer as a case that other commands take.
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <set>
 
 #include "bekker_wong/effect.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/report/number_text.hpp"
 
 namespace soilbin::compare {
 
@@ -62,26 +59,6 @@ Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
   model.study.models = {choice};
   model.study.conditions = asked_of(campaign, choice.effects);
   return model;
-}
-
-std::string proposed_effect(const LoopAnswer& answer) {
-  if (!answer.formula) return "";
-  const LearnedFormula& formula = *answer.formula;
-  const EffectChoice& choice = answer.learned_choice(0);
-  std::vector<double> weights;
-  for (const Estimate& w : formula.weights) weights.push_back(w.value);
-  std::string ranges;
-  for (const auto& variable : bekker_wong::learned_function(bekker_wong::find_form(choice)).variables) {
-    const std::string name(variable.name);
-    ranges += fmt::format("{}{} {} to {} (SI)", ranges.empty() ? "" : ", ", name,
-                          number(choice.parameters.at(name + "_from")), number(choice.parameters.at(name + "_to")));
-  }
-  return bekker_wong::proposed_entry(
-      bekker_wong::find_form(choice), formula.terms, weights,
-      {"By soilbin loop from campaign '" + answer.campaign + "': " + formula.joint + ", with",
-       "  " + formula_text(formula), "where the runs were: " + ranges + ". Conditions left out, against the learned",
-       fmt::format("curve: {} ± {} in ln density a condition.", number(formula.over_learned.mean),
-                   number(formula.over_learned.std_error))});
 }
 
 }  // namespace soilbin::compare

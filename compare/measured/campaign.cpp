@@ -42,7 +42,7 @@ Renamed read_rename(const YamlNode& node, const Reading& reading) {
   if (unit == nullptr) return renamed;
   if (column.content != RunColumn::Content::number)
     reading.refuse(*unit, fmt::format("'{}' has no unit", column.quantity));
-  renamed.choice.unit = read_text(*unit, reading);
+  renamed.choice.unit = read_name(*unit, reading);
   const Unit expected = parse_unit(column.measure.unit);
   try {
     const Unit written = parse_unit(renamed.choice.unit);

@@ -156,6 +156,9 @@ double number_in(const CsvCell& cell, const std::string& column, const std::stri
 }
 
 std::string csv_cell(const std::string& text) {
+  // A spreadsheet takes what begins like this for a formula, and some formulas start programs.
+  if (!text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos && !read_number(text))
+    return csv_cell("'" + text);
   const bool edge_blank = !text.empty() && (is_blank(text.front()) || is_blank(text.back()));
   if (!edge_blank && text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";

@@ -38,7 +38,7 @@ CsvTable parse_csv(const SourceText& source, std::size_t most_rows = most_csv_ro
 /// InputError at the cell, with what to write in its place.
 double number_in(const CsvCell& cell, const std::string& column, const std::string& unit, const SourceText& source);
 
-/// A text as a cell: quoted where it must be.
+/// A text as a cell: quoted where it must be; behind a single quote where a spreadsheet would take it for a formula.
 std::string csv_cell(const std::string& text);
 
 }  // namespace soilbin::compare

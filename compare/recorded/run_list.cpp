@@ -56,16 +56,23 @@ Shard parse_shard(std::string_view text) {
   return {*number, *of};
 }
 
-std::vector<AskedRun> shard_of(const std::vector<AskedRun>& list, const Shard& shard) {
-  long total = 0, before = 0;
+std::vector<int> shard_numbers(const std::vector<AskedRun>& list, int of) {
+  long total = 0, before = 0, number = 1;
   for (const AskedRun& run : list) total += share_of_work(run);
-  std::vector<AskedRun> mine;
-  long number = 1;
+  std::vector<int> numbers;
   for (const AskedRun& run : list) {
-    if (!run.half_step) number = before * shard.of / total + 1;
-    if (number == shard.number) mine.push_back(run);
+    if (!run.half_step) number = before * of / total + 1;
+    numbers.push_back(static_cast<int>(number));
     before += share_of_work(run);
   }
+  return numbers;
+}
+
+std::vector<AskedRun> shard_of(const std::vector<AskedRun>& list, const Shard& shard) {
+  const std::vector<int> numbers = shard_numbers(list, shard.of);
+  std::vector<AskedRun> mine;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (numbers[i] == shard.number) mine.push_back(list[i]);
   return mine;
 }
 

@@ -42,6 +42,8 @@ Shard parse_shard(std::string_view text);
 /// The shard's runs: a stretch of the list. All shards together are the list; a pair of the time step stays together. A
 /// run at half the step counts as two. With more shards than runs some are empty.
 std::vector<AskedRun> shard_of(const std::vector<AskedRun>& list, const Shard& shard);
+/// The number, 1 .. `of`, of the shard that each run of the list belongs to.
+std::vector<int> shard_numbers(const std::vector<AskedRun>& list, int of);
 
 /// The run of the record that answers what is asked; nullptr where there is none.
 const RecordedRun* find_run(const Record& record, const AskedRun& asked);

@@ -2,6 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
 #include "compare/report/json_fields.hpp"
 #include "compare/report/plot.hpp"
 #include "scenario/errors.hpp"
@@ -79,16 +84,58 @@ std::string between(const std::string& text, const std::string& begin, const std
   return text.substr(first + begin.size(), last - first - begin.size());
 }
 
+/// Text of a page as text of another: its entities stay, tags are none.
+std::string without_tags(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+  return out;
+}
+
+/// Whether what stands between < and > is a shape or words of a drawing, with attributes that name no program, style or
+/// other file.
+bool is_plain_tag(std::string_view inside) {
+  constexpr std::array<std::string_view, 11> shapes = {"svg",      "g",       "path", "line",  "rect", "circle",
+                                                       "polyline", "polygon", "text", "tspan", "title"};
+  constexpr std::array<std::string_view, 4> refused = {"on", "style", "href", "src"};
+  if (inside.starts_with('/')) inside.remove_prefix(1);
+  if (inside.ends_with('/')) inside.remove_suffix(1);
+  const std::string_view shape = inside.substr(0, inside.find(' '));
+  if (std::ranges::find(shapes, shape) == shapes.end()) return false;
+  for (inside.remove_prefix(shape.size()); !inside.empty();) {  // each: a blank, name="value"
+    const std::size_t equals = inside.find("=\""), end = inside.find('"', std::min(equals, inside.size() - 1) + 2);
+    if (inside.front() != ' ' || equals == inside.npos || end == inside.npos) return false;
+    std::string name(inside.substr(1, equals - 1)), value(inside.substr(equals + 2, end - equals - 2));
+    for (std::string* text : {&name, &value})
+      std::ranges::transform(*text, text->begin(), [](unsigned char c) { return std::tolower(c); });
+    if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != name.npos) return false;
+    if (std::ranges::any_of(refused, [&](std::string_view word) { return name.starts_with(word); })) return false;
+    if (value.find("url(") != value.npos || value.find("script:") != value.npos) return false;
+    inside.remove_prefix(end + 1);
+  }
+  return true;
+}
+
+/// Whether an SVG text is a drawing and nothing else, as soilbin writes them. A page that somebody changed may hold
+/// others.
+bool is_plain_drawing(std::string_view svg) {
+  for (std::size_t at = svg.find('<'); at != svg.npos; at = svg.find('<', at + 1)) {
+    const std::size_t end = svg.find('>', at);
+    if (end == svg.npos || !is_plain_tag(svg.substr(at + 1, end - at - 1))) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 PageCard page_card(const fs::path& page, const fs::path& from) {
   const std::string text = read_bytes(page, largest_page);
   PageCard card{fs::relative(page, from.parent_path().empty() ? fs::path(".") : from.parent_path()).generic_string(),
-                between(text, "<title>", "</title>"),
-                beginning(between(text, "<meta name=\"description\" content=\"", "\">")),
+                without_tags(between(text, "<title>", "</title>")),
+                without_tags(beginning(between(text, "<meta name=\"description\" content=\"", "\">"))),
                 between(text, "<svg class=\"plot\"", "</svg>", true)};
   if (card.drawing.empty())  // a page of heat maps
     card.drawing = between(text, "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot heat\"", "</svg>", true);
+  if (!is_plain_drawing(card.drawing)) card.drawing.clear();
   if (card.title.empty())
     throw InputError(
         fmt::format("{}: no page of soilbin\n  hint: --report of compare, loop, reproduce and failure-map writes one",
@@ -188,7 +235,7 @@ void Page::code(const std::string& text) { body_ += "<pre><code>" + escaped(text
 
 void Page::cards(const std::vector<PageCard>& cards) {
   body_ += "<div class=\"cards\">";
-  for (const PageCard& card : cards)  // titles, lines and drawings are a page's own text: escaped there
+  for (const PageCard& card : cards)  // titles, lines and drawings are escaped already: page_card
     body_ += fmt::format("<a class=\"card\" href=\"{}\">{}<b>{}</b><span>{}</span></a>\n", escaped(card.href),
                          card.drawing, card.title, card.line);
   body_ += "</div>\n";

@@ -6,7 +6,7 @@
 
 namespace soilbin::compare {
 
-/// The words with a blank between them; those that a shell would take apart are quoted.
+/// The words with a blank between them, on one line; those that a shell (bash) would take apart are quoted.
 std::string shell_words(const std::vector<std::string>& words);
 
 }  // namespace soilbin::compare

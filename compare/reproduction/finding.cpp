@@ -68,7 +68,7 @@ Findings parse_findings(const SourceText& source) {
   const auto need = [&](const char* key, const char* meaning) -> const YamlNode& {
     return *value_of(document, key, Need::required, meaning, reading);
   };
-  findings.name = read_text(need("name", "what to call the publication"), reading);
+  findings.name = read_name(need("name", "what to call the publication"), reading);
   findings.source = read_text(need("source", "the publication"), reading);
   findings.level =
       read_scalar(need("level", "of the intervals"), {"-", {.lower = 0.5, .upper = 1, .upper_open = true}}, reading)

@@ -48,29 +48,43 @@ std::vector<double> many_slopes_up_to(double steepest) {
   return slopes;
 }
 
-/// To first order. The largest pull changes with the soil as the pull at its slip does (the envelope theorem); a slip
-/// or slope x of no pull, F(x) = 0, has the error of F there over |dF/dx|.
+const bekker_wong::BekkerWong& with_errors() {
+  static const bekker_wong::BekkerWong model({.errors = true, .patch = false});
+  return model;
+}
+
+/// A slip or slope x, up to `most`, at which the pull F has a given value: to first order its error is that of F there
+/// over |dF/dx|.
+double error_of_root(const Scenario& scenario, const OperatingCondition& at, double OperatingCondition::*x,
+                     double most) {
+  constexpr double step = 1e-4;
+  const bekker_wong::BekkerWong values({.errors = false, .patch = false});
+  const Answer here = ask(with_errors(), scenario, at);
+  OperatingCondition below = at, above = at;
+  below.*x -= step, above.*x = std::min(at.*x + step, most);
+  const Answer less = ask(values, scenario, below), more = ask(values, scenario, above);
+  if (!here.result || !less.result || !more.result) return not_a_number;
+  const double rise = more.result->drawbar_pull.value - less.result->drawbar_pull.value;
+  return here.result->drawbar_pull.std_error * (above.*x - below.*x) / std::abs(rise);
+}
+
+/// Of the steepest slope, at the slip of the largest pull there.
+double error_of_steepest(const Scenario& scenario, const OperatingCondition& at) {
+  return error_of_root(scenario, at, &OperatingCondition::longitudinal_incline, at.longitudinal_incline + 1.0);
+}
+
+/// To first order. The largest pull changes with the soil as the pull at its slip does (the envelope theorem).
 void add_errors(const Scenario& scenario, WheelLimits& answer) {
-  const bekker_wong::BekkerWong model({.errors = true, .patch = false}), values({.errors = false, .patch = false});
   OperatingCondition at = answer.at;
-  const auto error_of_root = [&](double OperatingCondition::*x, double most) {
-    constexpr double step = 1e-4;
-    const Answer here = ask(model, scenario, at);
-    OperatingCondition below = at, above = at;
-    below.*x -= step, above.*x = std::min(at.*x + step, most);
-    const Answer less = ask(values, scenario, below), more = ask(values, scenario, above);
-    if (!here.result || !less.result || !more.result) return not_a_number;
-    const double rise = more.result->drawbar_pull.value - less.result->drawbar_pull.value;
-    return here.result->drawbar_pull.std_error * (above.*x - below.*x) / std::abs(rise);
-  };
   for (SlopeRow& row : answer.slopes) {
     at.longitudinal_incline = row.slope, at.slip = row.best.slip;
-    if (const Answer best = ask(model, scenario, at); best.result) row.pull_error = best.result->drawbar_pull.std_error;
+    if (const Answer best = ask(with_errors(), scenario, at); best.result)
+      row.pull_error = best.result->drawbar_pull.std_error;
     if (row.slope == answer.steepest) {
-      answer.steepest_error = error_of_root(&OperatingCondition::longitudinal_incline, row.slope + 1.0);
+      answer.steepest_error = error_of_steepest(scenario, at);
     } else if (row.slip && !row.perhaps_not_at_all()) {
       at.slip = *row.slip;
-      row.slip_error = error_of_root(&OperatingCondition::slip, 1.0);
+      row.slip_error = error_of_root(scenario, at, &OperatingCondition::slip, 1.0);
     }
   }
 }
@@ -146,6 +160,18 @@ std::string steepest_in_words(const Estimate& steepest, double slip) {
 }
 
 }  // namespace
+
+std::optional<Estimate> steepest_slope(const Scenario& scenario, OperatingCondition at, double drawbar) {
+  if (!scenario.soil.semi_empirical) throw InputError("soil '" + scenario.soil.name + "' has no semi_empirical values");
+  ModelChoice choice;
+  choice.effects = scenario.effects;
+  const bekker_wong::RollingWheel wheel = wheel_of(scenario, choice);
+  const std::optional<double> steepest = bekker_wong::steepest_slope(wheel, at, drawbar);
+  if (!steepest) return std::nullopt;
+  at.longitudinal_incline = *steepest;
+  at.slip = bekker_wong::largest_pull(wheel, at).slip;
+  return Estimate{*steepest, error_of_steepest(scenario, at)};
+}
 
 std::vector<WheelLimits> limits_of(const Case& question) {
   std::vector<WheelLimits> answers;

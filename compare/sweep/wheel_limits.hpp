@@ -52,6 +52,11 @@ struct WheelLimits {
 /// to first order, from those of soil and effects. Throws InputError for another model.
 std::vector<WheelLimits> limits_of(const Case& question);
 
+/// Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N], with its standard error to first order;
+/// none as of bekker_wong::steepest_slope. The slip and the incline of `at` are not read. Throws InputError for a soil
+/// without semi_empirical values, NoSolution.
+std::optional<Estimate> steepest_slope(const Scenario& scenario, OperatingCondition at, double drawbar = 0.0);
+
 /// The wheel where it pulls most on each slope: what there may be doubts about.
 std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vector<WheelLimits>& answers);
 

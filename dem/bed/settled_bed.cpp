@@ -89,6 +89,29 @@ void require_spheres(const GranularSoil& soil) {
         "LAMMPS is given spheres alone, not grains of several\n  hint: soilbin's own engine, or shape: sphere");
 }
 
+double steps_a_fall(const GranularSoil& soil, double gravity, double step) {
+  return std::sqrt(mean_diameter(soil) / gravity) / step;
+}
+
+void check_pace(const GranularSoil& soil, double gravity, double step) {
+  constexpr double most_sizes = 50, least_poisson = -0.9;
+  if (soil.radius_max > most_sizes * soil.radius_min)
+    throw InputError(fmt::format(
+        "the largest grain is {:.3g} times as large as the smallest, and {:.0f} at most make sense\n  hint: "
+        "are radius_min and radius_max right, and their units?",
+        soil.radius_max / soil.radius_min, most_sizes));
+  if (soil.poisson_ratio < least_poisson)
+    throw InputError(fmt::format("a Poisson ratio of {} makes grains that do not shear: {} .. 0.5 make sense",
+                                 soil.poisson_ratio, least_poisson));
+  const double steps = steps_a_fall(soil, gravity, step);
+  if (steps >= 1 && steps <= most_steps_a_fall) return;
+  throw InputError(fmt::format(
+      "with these grains the work {}: a grain needs {:.2g} time steps of {:.2g} s to fall by its own radius, and 1 .. "
+      "{:.0e} make sense\n  hint: are youngs_modulus, poisson_ratio, grain_density, radius_min and gravity right, and "
+      "their units?",
+      steps < 1 ? "means nothing" : "gets nowhere", steps, step, most_steps_a_fall));
+}
+
 void check(const BedRecipe& recipe) {
   const auto& [length, width, depth] = recipe.size;
   const Grading& grading = recipe.grading;
@@ -115,6 +138,7 @@ void check(const BedRecipe& recipe) {
                     recipe.dt, usual, least_share * usual));
   if (recipe.settled_by == SettledBy::lammps) require_spheres(recipe.soil);
   if (!(recipe.gravity > 0)) throw InputError("a bed settles under gravity: it must be above 0");
+  check_pace(recipe.soil, recipe.gravity, recipe.dt > 0 ? recipe.dt : usual);
   const bool in_lammps = recipe.settled_by == SettledBy::lammps;
   const double count = expected_grains(recipe), most = in_lammps ? most_in_lammps : most_grains;
   if (count > most)

@@ -95,6 +95,15 @@ inline double longest_step(const GranularSoil& soil) {
   return 0.999 * Numerics{}.safe_share * rayleigh_time(grains, sphere);
 }
 
+/// Steps in which a grain of the mean size falls by its own radius: 450 for the paper's grains, 2e5 for quartz
+/// sand of 0.1 mm radius. Beyond `most_steps_a_fall` no bed settles in a person's life.
+double steps_a_fall(const GranularSoil& soil, double gravity, double step);
+inline constexpr double most_steps_a_fall = 1e6;
+
+/// Throws InputError for grains and a step [s] with which the work gets nowhere, or whose step is longer than that
+/// fall; for a largest grain of more than 50 times the smallest, and for a Poisson ratio below -0.9.
+void check_pace(const GranularSoil& soil, double gravity, double step);
+
 /// Throws InputError for grains that LAMMPS is not given: those of several spheres.
 void require_spheres(const GranularSoil& soil);
 

@@ -20,7 +20,8 @@ void check(const AnnulusSettings& s) {
   require(s.grousers >= 3 && s.grouser_height > 0 && s.grouser_width > 0, "3 grousers or more, of sizes above 0");
   require(!s.stresses.empty() && *std::min_element(s.stresses.begin(), s.stresses.end()) > 0,
           "normal stresses must be above 0");
-  require(s.travel > 0 && s.speed > 0 && s.speed <= 1 && s.samples >= 20, "travel, speed and samples are too small");
+  require(s.travel > 0 && s.speed >= 1e-6 && s.speed <= 1 && s.samples >= 20,
+          "travel, speed and samples are too small");
 }
 
 /// A closed ring about z, its underside in z = 0.

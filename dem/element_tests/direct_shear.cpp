@@ -17,8 +17,8 @@ void check(const DirectShearSettings& s) {
   require(!s.stresses.empty() && std::all_of(s.stresses.begin(), s.stresses.end(), [](double p) { return p > 0; }),
           "normal stresses must be above 0");
   require(s.travel > 0 && s.travel < s.length / 2, "the travel must be above 0 and less than half the box");
-  require(s.packings >= 1, "at least one packing");
-  require(s.inertial > 0, "the inertial number must be above 0");
+  require(s.packings >= 1 && s.packings <= 10000, "1 to 10000 packings");
+  require(s.inertial >= 1e-7 && s.inertial <= 1, "the inertial number must lie in 1e-7 .. 1");
   require(s.residual_share > 0 && s.residual_share <= 1, "residual_share must lie in 0 .. 1");
   require(s.samples >= 20, "at least 20 samples");
 }

@@ -19,7 +19,7 @@ void check(const PlateSettings& s) {
   for (const double diameter : s.diameters)
     require(diameter >= narrowest_tool,
             fmt::format("a plate of {:.3g} grains is too narrow: at least {:.3g}", diameter, narrowest_tool));
-  require(s.sinkage > 0 && s.speed > 0 && s.speed <= 1, "sinkage above 0, speed in 0 .. 1");
+  require(s.sinkage > 0 && s.speed >= 1e-6 && s.speed <= 1, "sinkage above 0, speed in 1e-6 .. 1");
   require(s.samples >= 10, "at least 10 samples");
 }
 

@@ -50,7 +50,9 @@ Setup loose_setup(const GranularSoil& soil, double dt, double room, const WorkOp
   setup.materials.add({"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio},
                       interaction_of(soil.grain_grain));
   setup.domain = {{-room, -room, -mean_diameter(soil)}, {room, room, room}};
+  if (!(dt >= 0)) throw InputError(fmt::format("a time step of {} s: above 0, or 0 for the longest that is safe", dt));
   setup.numerics.dt = dt > 0 ? dt : longest_step(soil);
+  check_pace(soil, gravity_on(soil), setup.numerics.dt);
   setup.numerics.skin = 0.2 * soil.radius_max;
   setup.numerics.threads = how.threads;
   return setup;

@@ -12,9 +12,10 @@ namespace {
 
 void check(const TiltingBoardSettings& s) {
   const Requirements require("tilting board");
-  require(s.across >= 1, "at least one grain across");
+  require(s.across >= 1 && s.across <= 1000, "1 to 1000 grains across");
   require(s.layers >= 1 && s.layers <= 100, "1 to 100 layers");
-  require(s.rate > 0 && s.steepest > 0 && s.steepest < std::numbers::pi / 2, "tilt at a rate above 0, below 90 deg");
+  require(s.rate >= 1e-6 && s.steepest > 0 && s.steepest < std::numbers::pi / 2,
+          "tilt at 1e-6 rad/s or more, below 90 deg");
   require(s.onset > 0 && s.gone > s.onset, "onset above 0, gone above onset");
 }
 

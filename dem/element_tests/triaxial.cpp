@@ -19,7 +19,8 @@ void check(const TriaxialSettings& s) {
   require(!s.stresses.empty() && std::all_of(s.stresses.begin(), s.stresses.end(), [](double p) { return p > 0; }),
           "confining stresses must be above 0");
   require(s.strain > 0 && s.strain < 0.8, "the axial strain must lie in 0 .. 0.8");
-  require(s.packings >= 1 && s.samples >= 20 && s.inertial > 0, "packings, samples (20) and inertial number too small");
+  require(s.packings >= 1 && s.packings <= 10000 && s.samples >= 20, "1 to 10000 packings, 20 samples or more");
+  require(s.inertial >= 1e-7 && s.inertial <= 1, "the inertial number must lie in 1e-7 .. 1");
   require(s.residual_share > 0 && s.residual_share <= 1, "residual_share must lie in 0 .. 1");
 }
 

@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 #include <omp.h>
+#include <pthread.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <ctime>
 #include <limits>
@@ -95,6 +97,21 @@ Margins margins_of(const World& world, double largest) {
   return margins;
 }
 
+/// OpenMP's threads stay with the process that began them: in a child made by fork() a parallel part would wait for
+/// them without end. There one thread does the work; no number of them changes a bit.
+class ThreadsOfThisProcess {
+ public:
+  int at_most(int threads) {
+    if (threads > 1 && !begun_.exchange(true)) pthread_atfork(nullptr, nullptr, [] { left_behind_ = true; });
+    return left_behind_ ? 1 : threads;
+  }
+
+ private:
+  std::atomic<bool> begun_ = false;
+  inline static std::atomic<bool> left_behind_ = false;
+};
+ThreadsOfThisProcess threads_of_this_process;
+
 /// Threads that wait for each other cost more than they save where each has few grains.
 int threads_for(const Numerics& numerics, std::size_t grains) {
   if (numerics.threads > 0) return numerics.threads;
@@ -120,7 +137,7 @@ void prepare(World& world) {
   const double largest = world.state.grains.largest_radius();
   world.laws.fill(world.setup.materials, world.setup.laws, largest);
   world.margins = margins_of(world, largest);
-  world.threads = threads_for(world.setup.numerics, world.state.grains.count());
+  world.threads = threads_of_this_process.at_most(threads_for(world.setup.numerics, world.state.grains.count()));
   give_grids(world.state.bodies, largest + world.margins.motion + world.margins.adhesion);
   check_step(world.setup, world.state.grains);
 }
@@ -163,6 +180,7 @@ void half_step_back(World& world) {
 /// Brings in what was added or changed since the last step.
 void settle_changes(World& world) {
   check_bodies(world);  // anybody may have changed them
+  world.threads = threads_of_this_process.at_most(world.threads);
   if (world.state.travel < search_is_due_now) return;
   with_energy_counted(world, [&] {
     prepare(world);

@@ -40,6 +40,8 @@ std::shared_ptr<const SettledBed> DemModel::bed(const BedRecipe& recipe) const {
 void DemModel::check(const Scenario& scenario) const {
   const BedRecipe asked = recipe(scenario);
   way_in_bin(asked.size, scenario.tire, settings_.rig);
+  if (!(settings_.rig.dt >= 0))
+    throw InputError(fmt::format("a time step of {} s: above 0, or 0 for the longest that is safe", settings_.rig.dt));
   dem::check(asked);
   // Of the grains of a bed the smallest is a little larger than radius_min: by how much, the engine sees.
   const double step = std::max(asked.dt, step_of(asked, settings_.rig)), usual = longest_step(asked.soil);
@@ -50,13 +52,42 @@ void DemModel::check(const Scenario& scenario) const {
         step, step / usual * Numerics{}.safe_share, usual / Numerics{}.safe_share, Numerics{}.safe_share, 1e3 * usual));
 }
 
+double DemModel::expected_steps(const Scenario& scenario, const OperatingCondition& at) const {
+  const Rig& rig = settings_.rig;
+  const BedRecipe asked = recipe(scenario);
+  const bool inclined = at.longitudinal_incline != 0 || at.transverse_incline != 0;
+  const double way = way_in_bin(asked.size, scenario.tire, rig);
+  const double driven = (way - at.speed * rig.starting / 2) / at.speed;
+  const double time =
+      (inclined ? rig.tilting : 0.0) + at.pass * (rig.lowering + rig.resting + rig.starting + std::max(0.0, driven));
+  return time / step_of(asked, rig);
+}
+
+namespace {
+
+constexpr double most_steps = 1e10;  // of a run: at a million a second, of a few grains, three hours
+
+void check_steps(double steps, double step, const char* hint) {
+  if (!(steps <= most_steps))
+    throw InputError(fmt::format("this takes {:.2g} time steps of {:.2g} s, and {:.0e} at most make sense\n  hint: {}",
+                                 steps, step, most_steps, hint));
+}
+
+}  // namespace
+
+void DemModel::check(const Scenario& scenario, const OperatingCondition& at) const {
+  wheel_motion(at, scenario.tire.radius);
+  check(scenario);
+  check_steps(expected_steps(scenario, at), step_of(recipe(scenario), settings_.rig),
+              "a higher speed, a shorter way (--travel), shorter times of the rig, fewer passes");
+}
+
 TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondition& at) const {
   if (!scenario.effects.empty())
     throw InputError("dem takes no effects, but '" + scenario.effects.front().id + "' is switched on");
   const BedRecipe asked = recipe(scenario);
   if (settings_.lammps) require_spheres(asked.soil);
-  wheel_motion(at, scenario.tire.radius);  // these two refuse what can't be run before a bed is settled for it
-  check(scenario);
+  check(scenario, at);  // before a bed is settled for it
   const auto bed = this->bed(asked);
   const ContactPair& contact = scenario.soil.granular->grain_tire;
   const Checkpoints kept = checkpoints_of(scenario, at);
@@ -103,6 +134,8 @@ GrainDriveRecord DemModel::drive(const Scenario& scenario, const Drive& drive, i
   check_drive(drive);
   if (settings_.lammps) throw InputError("a wheel that is free along the bin is driven by the engine alone");
   check(scenario);
+  const double step = step_of(recipe(scenario), settings_.rig);
+  check_steps(drive.duration / step, step, "a shorter duration of the drive");
   const auto bed = beds_.bed(recipe(scenario), settings_.how);
   return drive_freely({*bed, scenario.tire, scenario.soil.granular->grain_tire, settings_.rig}, drive, samples,
                       settings_.how, checkpoints_of(scenario, drive, samples));

@@ -63,8 +63,15 @@ class DemModel : public Model {
   void forget(const Scenario& scenario, const Drive& drive, int samples = 400) const;
 
   /// Throws InputError where no condition can be run, before a bed is settled: without granular values, for a bed that
-  /// makes no sense or has no room for the wheel (way_in_bin), for a time step that is too long or too short.
+  /// makes no sense or has no room for the wheel (way_in_bin), for a time step that is too long or too short, and for
+  /// grains with which the work gets nowhere (check_pace).
   void check(const Scenario& scenario) const;
+  /// The same for a run at this condition: throws also where wheel_motion does, and for a speed or times of the rig
+  /// with which the run would take more than 1e10 steps.
+  void check(const Scenario& scenario, const OperatingCondition& at) const;
+
+  /// Steps of a run, from the tilt to the end of its way, about.
+  double expected_steps(const Scenario& scenario, const OperatingCondition& at) const;
 
   /// The bed that a scenario's soil gets.
   BedRecipe recipe(const Scenario& scenario) const;

@@ -124,7 +124,7 @@ int do_job(const fs::path& folder, bool writes, const std::stop_token& stop) {
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    fmt::print(stderr, "usage: mpirun -n RANKS soilbin-lammps FOLDER\n");
+    std::fputs("usage: mpirun -n RANKS soilbin-lammps FOLDER\n", stderr);
     return failed;
   }
   const StopBySignal stop;
@@ -136,7 +136,7 @@ int main(int argc, char** argv) {
     MPI_Finalize();
     return status;
   } catch (const std::exception& error) {  // of this process alone, say without memory: the others would wait for it
-    fmt::print(stderr, "soilbin-lammps: rank {}: {}\n", rank, error.what());
+    std::fputs(fmt::format("soilbin-lammps: rank {}: {}\n", rank, error.what()).c_str(), stderr);
     MPI_Abort(MPI_COMM_WORLD, failed);
     return failed;
   }

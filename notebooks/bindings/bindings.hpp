@@ -65,12 +65,47 @@ class Watch {
   std::chrono::steady_clock::time_point looked_ = std::chrono::steady_clock::now();
 };
 
+/// Thrown through work that a thread does while the interpreter ends: nobody is left to whom it could answer.
+struct InterpreterEnds {};
+
+/// Work that is done without the interpreter's lock: counted, so that an interpreter that ends can stop it and wait. A
+/// thread whose work ends then never comes back: to take the lock would end the process.
+class UnlockedWork {
+ public:
+  UnlockedWork();
+  ~UnlockedWork();
+  UnlockedWork(const UnlockedWork&) = delete;
+  UnlockedWork& operator=(const UnlockedWork&) = delete;
+};
+
+/// Stops what works without the lock and waits for it, ten seconds at most; called before the interpreter ends.
+void end_unlocked_work();
+
 /// Does work without the interpreter's lock.
 template <class Work>
 auto unlocked(const Work& work) {
   const py::gil_scoped_release lock;
+  const UnlockedWork counted;
   return work();
 }
+
+/// An object at work without the interpreter's lock, for as long as this lives, which is made and ended with the lock.
+/// Throws std::runtime_error where another thread, or this one further out, has it at work already.
+class AtWork {
+ public:
+  explicit AtWork(const void* object);
+  ~AtWork();
+  AtWork(const AtWork&) = delete;
+  AtWork& operator=(const AtWork&) = delete;
+
+ private:
+  const void* object_;
+};
+/// Throws std::runtime_error where another thread has the object at work; `even_here`: where this one has, too.
+void refuse_at_work(const void* object, bool even_here);
+
+/// Makes an object that __new__ alone made, which has no value, an error of type TypeError in place of raw memory.
+void refuse_objects_without_value(const py::module_& module);
 
 /// One number of each row as a numpy array that looks into the rows: no copy; `owner` keeps them alive. Not writable.
 /// `member` is a pointer to a data member or a function from a row to a reference.

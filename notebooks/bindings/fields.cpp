@@ -1,5 +1,7 @@
 #include "notebooks/bindings/fields.hpp"
 
+#include "scenario/source_text.hpp"
+
 namespace soilbin::python {
 
 std::string field_doc(const std::string& meaning, const Measure& measure) {
@@ -40,12 +42,32 @@ std::string number_meant(const std::string& text, const Measure& measure) {
   }
 }
 
+/// What an attribute takes, in words: "a number in m", "a text", "a ContactPair".
+std::string expected(const py::object& self, const std::string& key, const Measures& measures) {
+  if (const auto measured = measures.find(key); measured != measures.end()) {
+    if (measured->second.whole) return "a whole number";
+    const std::string unit = si_unit_of(measured->second.measure.unit);
+    return unit == "-" ? "a number" : "a number in " + unit;
+  }
+  const py::object now = self.attr(key.c_str());
+  if (now.is_none()) return "another value";
+  if (py::isinstance<py::str>(now)) return "a text";
+  if (py::isinstance<py::list>(now)) return "a list";
+  return "a " + py::type::of(now).attr("__name__").cast<std::string>();
+}
+
 }  // namespace
+
+void check_text(const std::string& key, const std::string& text) {
+  if (find_control(text) != std::string::npos) throw InputError(key + ": a text has no control characters");
+  if ((key == "name" || key == "label") && text.find_first_of("\n\r\t") != std::string::npos)
+    throw InputError(key + ": a name is one line, without tabs");
+}
 
 py::object in_si(const std::string& key, const py::object& value, const Measures& measures) {
   const auto measured = measures.find(key);
   if (measured == measures.end()) return value;
-  const Measure& measure = measured->second;
+  const Measure& measure = measured->second.measure;
   if (py::hasattr(value, "magnitude") && py::hasattr(value, "to_base_units")) return from_pint(key, value, measure);
   if (!py::isinstance<py::str>(value)) return value;
   const auto text = value.cast<std::string>();
@@ -60,7 +82,13 @@ void set_attribute(const py::object& self, const std::string& key, const py::obj
     throw py::attribute_error(fmt::format("{} has no attribute '{}'{}",
                                           py::type::of(self).attr("__name__").cast<std::string>(), key,
                                           did_you_mean(key, known)));
-  py::module_::import("builtins").attr("object").attr("__setattr__")(self, key, in_si(key, value, measures));
+  try {
+    py::module_::import("builtins").attr("object").attr("__setattr__")(self, key, in_si(key, value, measures));
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_TypeError)) throw;
+    throw py::type_error(fmt::format("{}: expected {}, not {}", key, expected(self, key, measures),
+                                     py::repr(value).cast<std::string>()));
+  }
 }
 
 void check_keywords(py::handle type, const py::kwargs& given, const std::vector<std::string>& known) {

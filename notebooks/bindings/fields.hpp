@@ -17,8 +17,15 @@ namespace soilbin::python {
 /// "radius to the tread base [m], above 0 m"
 std::string field_doc(const std::string& meaning, const Measure& measure);
 
-/// What each number among a class's attributes measures.
-using Measures = std::map<std::string, Measure>;
+/// What a number among a class's attributes measures, and whether it is a whole one.
+struct Measured {
+  Measure measure;
+  bool whole = false;
+};
+using Measures = std::map<std::string, Measured>;
+
+/// Throws InputError for a text that no file can hold: with control characters, or a name of several lines.
+void check_text(const std::string& key, const std::string& text);
 
 /// Adds an attribute for each key of T's description.
 template <class T>
@@ -30,7 +37,15 @@ class FieldsOf {
   Measures measures;  ///< of the numbers among them
 
   void text(const char* key, std::string T::*member, Need need, const char* meaning) {
-    plain(key, member, need, meaning);
+    note(key, need);
+    const std::string name = key;
+    to_.def_property(
+        key, [member](const T& self) { return self.*member; },
+        [member, name](T& self, const std::string& text) {
+          check_text(name, text);
+          self.*member = text;
+        },
+        meaning);
   }
   void number(const char* key, double T::*member, const Measure& measure, Need need, const char* meaning) {
     checked<double>(key, member, measure, need, meaning, [](double x) { return std::optional(x); });
@@ -85,7 +100,7 @@ class FieldsOf {
   void checked(const char* key, U T::*member, const Measure& measure, Need need, const char* meaning,
                ValueOf value_of) {
     note(key, need);
-    measures[key] = measure;
+    measures[key] = {measure, std::is_same_v<U, int> || std::is_same_v<U, std::optional<int>>};
     const std::string doc = field_doc(meaning, measure);
     to_.def_property(
         key, [member](const T& self) { return self.*member; },
@@ -107,7 +122,8 @@ class FieldsOf {
 /// with the number to write for a text where a number is meant, and InputError for a quantity of the wrong dimension.
 py::object in_si(const std::string& key, const py::object& value, const Measures& measures);
 
-/// Sets one attribute. Raises AttributeError, with the nearest right word, for one that the class doesn't have.
+/// Sets one attribute. Raises AttributeError, with the nearest right word, for one that the class doesn't have, and
+/// TypeError that says what is expected for a value of another kind.
 void set_attribute(const py::object& self, const std::string& key, const py::object& value,
                    const std::vector<std::string>& known, const Measures& measures);
 

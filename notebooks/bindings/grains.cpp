@@ -109,10 +109,22 @@ void bind_states(py::module_& module) {
       .def_property_readonly("total", &EnergyBalance::total, "zero but for the error of the time step");
 }
 
+/// The simulation to look at: not while another thread has it at work.
+const Simulation& seen(const Simulation& simulation) {
+  refuse_at_work(&simulation, false);
+  return simulation;
+}
+
+/// The simulation to change: not while it is at work.
+Simulation& idle(Simulation& simulation) {
+  refuse_at_work(&simulation, true);
+  return simulation;
+}
+
 /// All grains in the order of their ids, a number or three of each.
 template <class Of>
 py::array_t<double> each_grain(const Simulation& simulation, py::ssize_t width, const Of& of) {
-  const std::vector<dem::GrainNow> now = simulation.grains();
+  const std::vector<dem::GrainNow> now = seen(simulation).grains();
   const std::vector<dem::GrainId>& ids = simulation.state().grains.id;
   std::vector<std::size_t> row(ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i) row[i] = i;
@@ -141,6 +153,7 @@ std::unique_ptr<Simulation> make_simulation(const Material& material, const Inte
 
 void run(Simulation& simulation, std::int64_t steps, const py::object& progress) {
   if (steps < 0) throw InputError("steps: 0 or more");
+  const AtWork alone(&simulation);
   Watch watch(progress);
   unlocked([&] {
     for (std::int64_t done = 0; done < steps;) {
@@ -161,7 +174,8 @@ void bind_grains(py::module_& module) {
   using dem::NormalLaw, dem::RollingLaw, dem::CohesionLaw;
   py::class_<Simulation>(
       module, "Simulation",
-      "Spheres of one material and what they do to each other, step by step (docs/theory/dem-laws.md).")
+      "Spheres of one material and what they do to each other, step by step (docs/theory/dem-laws.md). One thread at a "
+      "time: while it runs, other threads get a RuntimeError; its own progress may look at it.")
       .def(py::init(&make_simulation), py::arg("material"), py::arg("interaction"), py::arg("dt"),
            py::arg("gravity") = Triple{0, 0, 0}, py::arg("normal") = NormalLaw::hertz,
            py::arg("rolling") = RollingLaw::none, py::arg("cohesion") = CohesionLaw::none, py::arg("threads") = 1,
@@ -170,7 +184,7 @@ void bind_grains(py::module_& module) {
       .def(
           "add_grain",
           [](Simulation& s, const Triple& position, double radius, const Triple& velocity, const Triple& spin) {
-            return s.add_grain(vec3_of(position), radius, 0, vec3_of(velocity), vec3_of(spin));
+            return idle(s).add_grain(vec3_of(position), radius, 0, vec3_of(velocity), vec3_of(spin));
           },
           py::arg("position"), py::arg("radius"), py::arg("velocity") = Triple{0, 0, 0},
           py::arg("spin") = Triple{0, 0, 0}, "[m], [m/s], [rad/s]; gives the grain's id.")
@@ -180,19 +194,21 @@ void bind_grains(py::module_& module) {
             dem::Body body;
             body.name = "plane";
             body.surfaces.push_back({dem::Plane{vec3_of(point), dem::unit(vec3_of(normal))}, 0});
-            return s.add_body(body);
+            return idle(s).add_body(body);
           },
           py::arg("point"), py::arg("normal"), "A plane that stands still, grains on the side of its normal.")
       .def("run", &run, py::arg("steps"), py::arg("progress") = py::none(),
            "Raises RunStopped where an overlap is too deep or a grain is lost, InputError for a step that is too long.")
-      .def_property_readonly("time", &Simulation::time, "[s]")
+      .def_property_readonly(
+          "time", [](const Simulation& s) { return seen(s).time(); }, "[s]")
       .def_property_readonly(
           "dt", [](const Simulation& s) { return s.setup().numerics.dt; }, "[s]")
       .def_property_readonly(
           "rayleigh_time",
-          [](const Simulation& s) { return dem::rayleigh_time(s.setup().materials, s.state().grains); },
+          [](const Simulation& s) { return dem::rayleigh_time(seen(s).setup().materials, s.state().grains); },
           "smallest over all grains [s]; a step is at most a fifth of it")
-      .def("grain", &Simulation::grain, py::arg("id"))
+      .def(
+          "grain", [](const Simulation& s, dem::GrainId id) { return seen(s).grain(id); }, py::arg("id"))
       .def_property_readonly(
           "positions",
           [](const Simulation& s) { return each_grain(s, 3, [](const auto& g, double* to) { put(g.position, to); }); },
@@ -205,8 +221,10 @@ void bind_grains(py::module_& module) {
           "radii",
           [](const Simulation& s) { return each_grain(s, 1, [](const auto& g, double* to) { *to = g.radius; }); },
           "[m]; a copy")
-      .def("contacts", &Simulation::contacts, "All contacts now, in a fixed order.")
-      .def("energy", &Simulation::energy, "What is where; see EnergyBalance.");
+      .def(
+          "contacts", [](const Simulation& s) { return seen(s).contacts(); }, "All contacts now, in a fixed order.")
+      .def(
+          "energy", [](const Simulation& s) { return seen(s).energy(); }, "What is where; see EnergyBalance.");
 }
 
 }  // namespace soilbin::python

@@ -78,6 +78,12 @@ void bind_result(py::module_& module) {
       .def_readonly("at", &Answer::at)
       .def_readonly("result", &Answer::result, "None where there is none")
       .def_readonly("error", &Answer::error, "'' where there is a result");
+  module.def(
+      "answer_of",
+      [](const TractionResult& result) {
+        return Answer{result.at, result, ""};
+      },
+      py::arg("result"), "The result as an Answer.");
 }
 
 void bind_models(py::module_& module) {
@@ -142,6 +148,21 @@ void bind_explanation(py::module_& module) {
   module.def(
       "doubts", [](const Case& question) { return compare::doubts(question); }, py::arg("case"),
       "What is possible in a case, but hardly meant: sentences.");
+  module.def(
+      "doubts_of",
+      [](const Scenario& scenario, const std::vector<Answer>& answers) {
+        Case question;
+        question.scenario = scenario;
+        question.scenario.effects.clear();
+        ModelChoice choice{ModelKind::bekker_wong, scenario.effects, ""};
+        choice.errors = scenario.errors;
+        question.study.models = {choice};
+        label_models(question.study.models);
+        for (const Answer& answer : answers) question.study.conditions.push_back(answer.at);
+        return compare::doubts(question, {{question.study.models.front(), answers}});
+      },
+      py::arg("scenario"), py::arg("answers"),
+      "What the command would warn of beside these answers of the analytic model: sentences.");
   module.def("in_words", py::overload_cast<const OperatingCondition&>(&compare::in_words), py::arg("at"),
              "A condition in words, without what is at its default.");
 }

@@ -24,6 +24,7 @@ class SoilBin {
   explicit SoilBin(DemSettings settings) : settings_(watched(std::move(settings))), model_(settings_) {}
 
   WheelRun run(const Scenario& scenario, const OperatingCondition& at, const py::object& progress) {
+    const AtWork alone(this);
     Watch watch(progress);
     WheelRun result;
     watch_ = &watch, result_ = &result;

@@ -5,6 +5,7 @@
 #include "bekker_wong/effect.hpp"
 #include "bekker_wong/limits.hpp"
 #include "bekker_wong/model.hpp"
+#include "compare/sweep/wheel_limits.hpp"
 #include "notebooks/bindings/bindings.hpp"
 #include "notebooks/bindings/scenario.hpp"
 #include "scenario/errors.hpp"
@@ -103,10 +104,11 @@ void bind_limits(py::module_& module) {
   module.def(
       "steepest_slope",
       [](const Scenario& scenario, const OperatingCondition& at, double drawbar) {
-        return bekker_wong::steepest_slope(wheel_of(scenario), at, drawbar);
+        return compare::steepest_slope(scenario, at, drawbar);
       },
       py::arg("scenario"), py::arg("at"), py::arg("drawbar") = 0.0,
-      "Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N]; None beyond -60 .. 80 deg.");
+      "Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N], an Estimate; None beyond -60 .. 80 "
+      "deg.");
 }
 
 void bind_closed_forms(py::module_& module) {

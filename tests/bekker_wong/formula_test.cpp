@@ -1,20 +1,14 @@
-// Learned effects as formulas: their terms, what they do at their joints, and the entry that is proposed for one.
+// Learned effects as formulas: their terms, and what they do at their joints.
 #include "bekker_wong/formula.hpp"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "bekker_wong/bed_fixture.hpp"
 
 namespace soilbin::bekker_wong {
-
-/// Of proposed_example.cpp, which is what proposed_entry wrote.
-std::vector<EffectForm> drawbar_pull_by_slip_and_load_forms();
-
 namespace {
 
 using testing::Contains;
@@ -45,11 +39,6 @@ Reading reading(const EffectForm* form, const std::vector<double>& parameters, c
 }
 
 OperatingCondition at(double load, double slip) { return bed::driven(load, slip); }
-
-std::string without_blanks(std::string text) {
-  std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
-  return text;
-}
 
 // Loads from 600 to 1500 N: middle 1050, to one digit 1000.
 TEST(Formula, TermsCarryTheirUnitsAndAreWhatTheySay) {
@@ -84,25 +73,6 @@ TEST(Formula, AmplitudeZeroIsTheBaseModelToTheBit) {
               without.drawbar_pull + without.torque + without.sinkage)
         << name;
   }
-}
-
-// What is proposed is C++ that compiles, here as proposed_example.cpp, and does what the formula does.
-TEST(Formula, TheProposedEntryIsTheFormula) {
-  const EffectForm& curve = learned("drawbar_pull_by_slip_and_load");
-  const auto terms = picked(terms_of(curve, {0.0, 0.6, 600, 1500}), {"slip^2", "max(0, slip) ln(load/1000 N)"});
-  const std::vector<double> weights = {0.125, -0.25};
-  std::ifstream file(SOILBIN_SOURCE_DIR "/tests/bekker_wong/proposed_example.cpp");
-  std::stringstream text;
-  text << file.rdbuf();
-  EXPECT_EQ(without_blanks(text.str()),
-            without_blanks(proposed_entry(curve, terms, weights, {"An example, of the tests."})));
-  const EffectForm proposed = drawbar_pull_by_slip_and_load_forms().front();
-  const EffectForm form = formula_form(curve, terms);
-  EXPECT_EQ(proposed.id, curve.form);
-  EXPECT_EQ(proposed.parameters[1].fallback, weights[0]);
-  for (const double slip : {-0.2, 0.1, 0.5})
-    EXPECT_DOUBLE_EQ(reading(&proposed, {1.0, weights[0], weights[1]}, at(1200, slip)).drawbar_pull,
-                     reading(&form, {1.0, weights[0], weights[1]}, at(1200, slip)).drawbar_pull);
 }
 
 }  // namespace

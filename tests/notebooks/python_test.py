@@ -4,6 +4,7 @@ import io
 import json
 import math
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -11,6 +12,7 @@ import tempfile
 import threading
 import time
 import unittest
+import warnings
 from pathlib import Path
 
 COMMAND = sys.argv.pop(1)
@@ -65,7 +67,14 @@ class Answers(unittest.TestCase):
 
     def test_the_steepest_slope_is_the_commands(self):
         limits = command("limits", "--tire", "rover-wheel", "--soil", "dry-sand", "--load", "64.68N")["rows"][0]
-        self.assertEqual(bekker_wong.steepest_slope(ROVER, AT), limits["steepest_slope"])
+        slope = bekker_wong.steepest_slope(ROVER, AT)
+        self.assertEqual(slope, limits["steepest_slope"])
+        self.assertEqual(slope.std_error, limits["std_error"]["steepest_slope"])
+        self.assertEqual(math.degrees(slope), math.degrees(slope.value), "it counts as a float")
+        self.assertRegex(str(slope), r"^0\.\d+ ± 0\.\d+$")
+        self.assertLess(bekker_wong.steepest_slope(ROVER, AT, drawbar=5.0), slope)
+        again = pickle.loads(pickle.dumps(slope))
+        self.assertEqual((again, again.std_error), (slope, slope.std_error))
 
     def test_limits_take_a_condition_as_keywords_and_refuse_in_plain_words(self):
         self.assertEqual(bekker_wong.steepest_slope(ROVER, load=64.68), bekker_wong.steepest_slope(ROVER, AT))
@@ -98,6 +107,32 @@ class Answers(unittest.TestCase):
     def test_the_resolved_case_comes_back(self):
         text = soilbin.find_case("rover-climb").yaml()
         self.assertEqual(soilbin.parse_case(text).yaml(), text)
+
+
+class Warnings(unittest.TestCase):
+    WORDS = ("--soil", "sandy-loam", "--radius", "670mm", "--width", "430mm", "--inflation-pressure", "150kPa", "--load", "37.5kN")
+
+    def setUp(self):
+        self.wheel = soilbin.Scenario(soilbin.Tire(name="wheel", radius=0.67, width=0.43, inflation_pressure=150e3), "sandy-loam")
+
+    def test_an_estimate_warns_of_what_the_command_warns_of(self):
+        known = command("estimate", *self.WORDS, "--slip", "20%")["warnings"]
+        self.assertTrue(known)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            soilbin.estimate(self.wheel, load=37.5e3, slip=0.2)
+        self.assertEqual([str(one.message) for one in caught], known)
+        self.assertTrue(all(one.category is soilbin.SoilbinWarning and one.filename == __file__ for one in caught))
+
+    def test_a_frame_keeps_them(self):
+        known = command("estimate", *self.WORDS, "--slip", "10%,20%")["warnings"]
+        with self.assertWarns(soilbin.SoilbinWarning):
+            frame = soilbin.sweep(self.wheel, soilbin.conditions(load=37.5e3, slip=[0.1, 0.2]))
+        self.assertEqual(frame.attrs["warnings"], known)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            frame = soilbin.run_study("rover-slip", progress=None)
+        self.assertEqual(frame.attrs["warnings"], [str(one.message) for one in caught])
 
 
 class Values(unittest.TestCase):
@@ -256,6 +291,132 @@ class Errors(unittest.TestCase):
             sim.run(1)
 
 
+class WrongArguments(unittest.TestCase):
+    def test_they_are_told_in_words(self):
+        for wrong, said in ((lambda: soilbin.Tire(radius=None, width=0.1), "radius: expected a number in m, not None"),
+                            (lambda: soilbin.estimate(ROVER, load={}, slip=0.2), "load: expected a number in N, not {}"),
+                            (lambda: AT.replace(**{"pass": 1.5}), "pass: expected a whole number, not 1.5"),
+                            (lambda: AT.replace(slip=[0.1]), r"slip: expected a number, not \[0.1\]"),
+                            (lambda: ROVER.tire.replace(name=3), "name: expected a text, not 3"),
+                            (lambda: ROVER.soil.semi_empirical.replace(k_c="much"), "k_c: expected a number"),
+                            (lambda: ROVER.tire.replace(lugs=5), "lugs: expected a Lugs, not 5")):
+            with self.assertRaisesRegex(TypeError, "^" + said):
+                wrong()
+
+    def test_a_name_is_a_line_without_control_characters(self):
+        for name in ("a\nb", "\x1b[2J", "\u009b"):
+            with self.assertRaisesRegex(soilbin.InputError, "name: a "):
+                ROVER.tire.replace(name=name)
+
+    def test_steps_that_make_no_sense_are_refused(self):
+        sand = soilbin.find_soil("paper-sand").granular
+        for dt in (-1.0, math.nan, math.inf):
+            with self.assertRaises(soilbin.InputError):
+                two_spheres(1, dt=dt)
+            with self.assertRaises(soilbin.InputError):
+                dem.tilting_board(sand, across=4, dt=dt, progress=None)
+
+    def test_counts_that_nobody_means_are_refused_before_they_are_made(self):
+        sand = soilbin.find_soil("paper-sand").granular
+        for wrong in (lambda: dem.tilting_board(sand, across=46341, progress=None),
+                      lambda: dem.direct_shear(sand, packings=2**31 - 1, progress=None),
+                      lambda: dem.direct_shear(sand, inertial=1e-300, progress=None),
+                      lambda: dem.tilting_board(sand.replace(youngs_modulus=1e20), across=4, progress=None)):
+            with self.assertRaises(soilbin.InputError):
+                wrong()
+
+    def test_an_object_that_new_alone_made_has_no_value(self):
+        for kind in (soilbin.Tire, soilbin.Estimate, soilbin.Soil, dem.Simulation):
+            for use in (repr, lambda made: made.width, lambda made: made.value, lambda made: made.time):
+                made = kind.__new__(kind)
+                try:
+                    text = str(use(made))
+                except (TypeError, AttributeError):
+                    continue
+                self.assertIn("object at 0x", text, "Python's own words for it")
+
+
+class Processes(unittest.TestCase):
+    """Each in a Python of its own, with a clock that ends it."""
+
+    def python(self, code, within=60):
+        return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=within, check=False)
+
+    BOX = """
+import soilbin
+from soilbin import dem
+sand = soilbin.find_soil("paper-sand").granular
+def box(threads, progress=None):
+    return dem.direct_shear(sand, [20e3], length=5, width=4, height=4, travel=0.05, threads=threads, progress=progress).runs[0].curve["shear_stress"]
+"""
+
+    def test_a_child_made_by_fork_works_after_threads_were_used(self):
+        done = self.python(self.BOX + """
+import multiprocessing
+right = box(3)
+with multiprocessing.get_context("fork").Pool(2) as pool:
+    for got in pool.map(box, [3, 1, 2]):
+        assert (got == right).all()
+sim = dem.Simulation(dem.Material(), dem.Interaction(), dt=2e-6, threads=3)
+for k in range(50):
+    sim.add_grain((0.021 * k, 0, 0), 0.01)
+sim.run(5)
+import os
+child = os.fork()
+if child == 0:
+    sim.run(5)
+    os._exit(7)
+assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 7
+print("alike")
+""")
+        self.assertEqual((done.returncode, done.stdout), (0, "alike\n"), done.stderr)
+
+    def test_an_interpreter_that_ends_stops_what_a_daemon_computes(self):
+        began = time.monotonic()
+        done = self.python(self.BOX + """
+import threading
+started = threading.Event()
+def work():
+    dem.direct_shear(sand, [20e3], threads=2, progress=lambda share, stage: started.set())
+threading.Thread(target=work, daemon=True).start()
+def look():
+    while True:
+        soilbin.sweep(soilbin.Scenario("rover-wheel", "dry-sand"), soilbin.conditions(load=60.0, slip=[0.1] * 100), progress=None)
+threading.Thread(target=look, daemon=True).start()
+assert started.wait(30)
+print("ends")
+""")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "ends\n", ""))
+        self.assertLess(time.monotonic() - began, 50)
+
+    def test_two_threads_on_one_simulation_are_refused(self):
+        done = self.python("""
+import threading
+from soilbin import dem
+sim = dem.Simulation(dem.Material(), dem.Interaction(), dt=2e-6)
+for k in range(200):
+    sim.add_grain((0.021 * k, 0, 0), 0.01, velocity=(0.1, 0, 0))
+running, said, inside = threading.Event(), [], []
+def progress(share, stage):
+    inside.append(sim.positions[0, 0])
+    running.set()
+worker = threading.Thread(target=lambda: sim.run(200_000, progress))
+worker.start()
+running.wait(30)
+for use in (lambda: sim.run(1), lambda: sim.positions, lambda: sim.energy(), lambda: sim.add_grain((0, 1, 0), 0.01), lambda: sim.time):
+    try:
+        use()
+    except RuntimeError as error:
+        said.append("at work already" in str(error))
+worker.join()
+assert said == [True] * 5, said
+assert inside, "its own progress may look"
+sim.run(1)
+print(sim.time > 0.4)
+""")
+        self.assertEqual((done.returncode, done.stdout), (0, "True\n"), done.stderr)
+
+
 class Arrays(unittest.TestCase):
     def check_view(self, array, owner):
         self.assertIs(array.base, owner)
@@ -289,8 +450,8 @@ class Arrays(unittest.TestCase):
         self.check_view(n["sigma"], rolled)
 
 
-def two_spheres(steps=4000):
-    sim = dem.Simulation(dem.Material(), dem.Interaction(restitution=0.5, sliding_friction=0.0), dt=2e-6)
+def two_spheres(steps=4000, dt=2e-6):
+    sim = dem.Simulation(dem.Material(), dem.Interaction(restitution=0.5, sliding_friction=0.0), dt=dt)
     sim.add_grain((-0.0101, 0, 0), 0.01, velocity=(0.5, 0, 0))
     sim.add_grain((0.0101, 0, 0), 0.01, velocity=(-0.5, 0, 0))
     sim.run(steps)

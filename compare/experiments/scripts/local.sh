@@ -1,5 +1,5 @@
 # The job KIND for each of 1 .. COUNT, @at_once@ at once.
-each() { seq "$2" | xargs -P @at_once@ -I NUMBER bash "$folder/sweep.sh" "$1" NUMBER; }
+each() { seq "$2" | xargs -P @at_once@ -n 1 bash "$folder/sweep.sh" "$1"; }
 
 case "${1-all}" in
   bed) exec "$soilbin" bed "${bed[@]}" --shard "$2/@beds@" >>"$folder/logs/bed-$2.log" 2>&1 ;;

@@ -826,6 +826,9 @@ class Answer:
     def error(self) -> str:
         """'' where there is a result"""
 
+def answer_of(result: TractionResult) -> Answer:
+    """The result as an Answer."""
+
 class Model:
     """One way of answering."""
     @property
@@ -881,6 +884,9 @@ def explain(scenario: Scenario, at: OperatingCondition) -> Explanation:
 
 def doubts(case: Case) -> list[str]:
     """What is possible in a case, but hardly meant: sentences."""
+
+def doubts_of(scenario: Scenario, answers: Sequence[Answer]) -> list[str]:
+    """What the command would warn of beside these answers of the analytic model: sentences."""
 
 def in_words(at: OperatingCondition) -> str:
     """A condition in words, without what is at its default."""
@@ -963,8 +969,9 @@ def slip_for_pull(scenario: Scenario, at: OperatingCondition, drawbar: float = .
     """Smallest slip above -0.5 at which the wheel pulls `drawbar` [N] on the slope of `at`; None where it can't.
     """
 
-def steepest_slope(scenario: Scenario, at: OperatingCondition, drawbar: float = ...) -> Optional[float]:
-    """Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N]; None beyond -60 .. 80 deg."""
+def steepest_slope(scenario: Scenario, at: OperatingCondition, drawbar: float = ...) -> Optional[Estimate]:
+    """Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N], an Estimate; None beyond -60 .. 80 deg.
+    """
 
 def bekker_static_sinkage(scenario: Scenario, load: float) -> float:
     """Bekker's static sinkage of a towed rigid wheel [m] (Bekker 1956). load [N] >= 0."""
@@ -1301,7 +1308,9 @@ class EnergyBalance:
         """zero but for the error of the time step"""
 
 class Simulation:
-    """Spheres of one material and what they do to each other, step by step (docs/theory/dem-laws.md)."""
+    """Spheres of one material and what they do to each other, step by step (docs/theory/dem-laws.md). One thread at a
+    time: while it runs, other threads get a RuntimeError; its own progress may look at it.
+    """
     @property
     def time(self) -> float:
         """[s]"""

@@ -34,10 +34,10 @@ from soilbin.progress import Progress, told_to
 from soilbin.questions import checked, one_condition
 
 __all__ = [
-    "BekkerWong", "Drive", "DriveEnd", "DriveRecord", "Explanation", "PlateCurve", "PlateExponent", "PlateFit",
-    "PlateTest", "Presumed", "RolledWheel", "RollingWheel", "bekker_static_sinkage", "critical_ground_pressure",
-    "drive_frame", "drive_wheel", "explain", "fit_plates", "fit_plates_at", "largest_pull", "mean_curve", "presumed",
-    "rolling_resistance", "slip_for_pull", "steepest_slope",
+    "BekkerWong", "Drive", "DriveEnd", "DriveRecord", "EstimatedFloat", "Explanation", "PlateCurve", "PlateExponent",
+    "PlateFit", "PlateTest", "Presumed", "RolledWheel", "RollingWheel", "bekker_static_sinkage",
+    "critical_ground_pressure", "drive_frame", "drive_wheel", "explain", "fit_plates", "fit_plates_at", "largest_pull",
+    "mean_curve", "presumed", "rolling_resistance", "slip_for_pull", "steepest_slope",
 ]
 
 
@@ -69,10 +69,38 @@ def slip_for_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, d
     return _soilbin.slip_for_pull(checked(scenario), at_any_slip(at, condition, PULL_HINT), drawbar)
 
 
+class EstimatedFloat(float):
+    """A number that knows its standard error, in the same unit: it counts and compares as a float."""
+
+    std_error: float
+
+    @property
+    def value(self) -> float:
+        """The number alone."""
+        return float(self)
+
+    def __new__(cls, value: float, std_error: float) -> EstimatedFloat:
+        made = super().__new__(cls, value)
+        made.std_error = std_error
+        return made
+
+    def __reduce__(self) -> tuple[type[EstimatedFloat], tuple[float, float]]:
+        return EstimatedFloat, (self.value, self.std_error)
+
+    def __repr__(self) -> str:
+        return str(_soilbin.Estimate(self.value, self.std_error))
+
+    __str__ = __repr__
+
+
 def steepest_slope(scenario: Scenario, at: Optional[OperatingCondition] = None, drawbar: float = 0.0,
-                   **condition: Any) -> Optional[float]:
-    """Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N]; None beyond -60 .. 80 deg."""
-    return _soilbin.steepest_slope(checked(scenario), at_any_slip(at, condition, PULL_HINT), drawbar)
+                   **condition: Any) -> Optional[EstimatedFloat]:
+    """Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N]; None beyond -60 .. 80 deg.
+
+    A float with its standard error (`std_error`, to first order from the soil's standard deviations).
+    """
+    found = _soilbin.steepest_slope(checked(scenario), at_any_slip(at, condition, PULL_HINT), drawbar)
+    return None if found is None else EstimatedFloat(found.value, found.std_error)
 
 
 def drive_wheel(scenario: Scenario, drive: Optional[Drive], samples: int = 400,

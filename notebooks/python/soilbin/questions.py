@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import itertools
+import warnings
 from collections.abc import Iterable, Sequence
 from typing import Any, Optional, Union
 
@@ -36,6 +37,21 @@ def conditions(**axes: Any) -> list[OperatingCondition]:
     """
     values = [np.atleast_1d(axis).tolist() if not isinstance(axis, (str, bytes)) else [axis] for axis in axes.values()]
     return [OperatingCondition(**dict(zip(axes, point))) for point in itertools.product(*values)]
+
+
+class SoilbinWarning(UserWarning):
+    """What a person should know before believing an answer: a value that changes nothing, a wheel that sinks too deep.
+
+    The command prints the same lines as "warning: ..."; warnings.simplefilter("ignore", SoilbinWarning) silences them.
+    """
+
+
+def warned(scenario: Scenario, answers: Sequence[Answer], stacklevel: int = 3) -> list[str]:
+    """Warns of what is doubtful in these answers of the analytic model; gives the sentences."""
+    said = _soilbin.doubts_of(scenario, answers)
+    for sentence in said:
+        warnings.warn(sentence, SoilbinWarning, stacklevel=stacklevel)
+    return said
 
 
 def checked(scenario: Scenario) -> Scenario:
@@ -74,8 +90,11 @@ def estimate(scenario: Scenario, at: Optional[OperatingCondition] = None, **cond
     [m/s], longitudinal_incline, transverse_incline and yaw [rad], pass [-]. The result holds drawbar_pull [N], torque
     [N m], sinkage [m] and lateral_force [N], each with value and std_error, tractive_efficiency [-], and the arrays of
     `patch`, of shape (nodes,). Raises InputError for what is refused, NoSolution where the wheel would bury itself.
+    Warns (SoilbinWarning) as the command does.
     """
-    return BekkerWong().evaluate(checked(scenario), one_condition(at, condition))
+    result = BekkerWong().evaluate(checked(scenario), one_condition(at, condition))
+    warned(scenario, [_soilbin.answer_of(result)])
+    return result
 
 
 def sweep(scenario: Scenario, at: Iterable[OperatingCondition], model: Optional[Model] = None,
@@ -84,10 +103,20 @@ def sweep(scenario: Scenario, at: Iterable[OperatingCondition], model: Optional[
 
     Columns: the condition, the four channels with NAME_std_error, tractive_efficiency, the three angles of the contact,
     budget_NAME for each part of the pull, error ('' where there is a result). SI and radians. A condition without
-    solution is a row of NaN with its error.
+    solution is a row of NaN with its error. Of the analytic model's answers it warns (SoilbinWarning) as the command
+    does; the sentences are kept in the frame's attrs["warnings"].
     """
+    return swept(scenario, at, model, progress)
+
+
+def swept(scenario: Scenario, at: Iterable[OperatingCondition], model: Optional[Model],
+          progress: Progress) -> pd.DataFrame:
+    """What sweep gives; its warnings are said of the line that called the caller."""
     answers = _soilbin.answers(model or BekkerWong(patch=False), checked(scenario), list(at), told_to(progress))
-    return answers_frame(answers)
+    frame = answers_frame(answers)
+    if model is None or isinstance(model, BekkerWong):
+        frame.attrs["warnings"] = warned(scenario, answers, stacklevel=4)
+    return frame
 
 
 def run_study(case: Union[Case, str], progress: Progress = "shown") -> pd.DataFrame:
@@ -97,14 +126,18 @@ def run_study(case: Union[Case, str], progress: Progress = "shown") -> pd.DataFr
     soilbin.dem.SoilBin for them.
     """
     question = _soilbin.find_case(case) if isinstance(case, str) else case
-    frames = []
+    frames: list[pd.DataFrame] = []
+    said: list[str] = []
     for choice in question.study.models:
         if choice.model == ModelKind.bekker_wong:
             scenario = question.scenario.with_effects(choice.effects)
-            frame = sweep(scenario, question.study.conditions, progress=progress)
+            frame = swept(scenario, question.study.conditions, None, progress)
+            said += [one for one in frame.attrs.pop("warnings") if one not in said]
             frame.insert(0, "model", choice.label)
             frames.append(frame)
-    return pd.concat(frames, ignore_index=True) if frames else pd.DataFrame()
+    whole = pd.concat(frames, ignore_index=True) if frames else pd.DataFrame()
+    whole.attrs["warnings"] = said
+    return whole
 
 
 def condition_columns(at: OperatingCondition) -> dict[str, Any]:
