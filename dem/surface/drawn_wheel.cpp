@@ -74,6 +74,8 @@ DrawnWheel placed(const Drawing& drawing, LengthUnit unit, char axle, const Vec3
       .mends = drawing.mends};
   const Extent extent(wheel.mesh.vertices(), 'y', {});
   wheel.radius = extent.reach, wheel.left = extent.left, wheel.right = extent.right;
+  for (const Vec3& place : drawing.mends.places)
+    wheel.mended_at.push_back(unit.metres * turned_to_y(place - middle, axle));
   wheel.changes = drawing.mends.in_words(unit.name);
   if (axle != 'y')
     wheel.changes.push_back(fmt::format("turned from axle {} to axle y: forward is the drawing's {}", axle,
