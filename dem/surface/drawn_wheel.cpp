@@ -140,12 +140,13 @@ DrawnWheel read_wheel(const std::filesystem::path& file, std::optional<LengthUni
   const Vec3 middle = drawing.middle(axle);
   const Extent centred(drawing.soup.vertices, axle, middle), as_drawn(drawing.soup.vertices, axle, {});
   std::vector<std::string> others;
+  const bool guessed = !unit;
   for (const LengthUnit one : drawing_units) {
     const double radius = one.metres * centred.reach;
     if (!(radius >= smallest_radius && radius <= largest_radius)) continue;
     if (!unit)
       unit = one;
-    else if (unit->metres != one.metres)
+    else if (guessed)
       others.push_back(fmt::format("{} (radius {} mm)", one.name, in_mm(radius)));
   }
   if (!unit)
