@@ -23,6 +23,7 @@ void add_estimate(CLI::App& app, Session& session);
 void add_explain(CLI::App& app, Session& session);
 void add_run(CLI::App& app, Session& session);
 void add_bed(CLI::App& app, Session& session);
+void add_mesh(CLI::App& app, Session& session);
 void add_record(CLI::App& app, Session& session);
 void add_sweep(CLI::App& app, Session& session);
 void add_element_test(CLI::App& app, Session& session);

@@ -46,6 +46,7 @@ std::vector<std::string> add_commands(CLI::App& app, Session& session) {
        {with_grains(add_compare), {add_report}, with_grains(add_reproduce), with_grains(add_failure_map)}},
       {"Work with grains",
        {with_grains(add_bed),
+        {add_mesh},
         {add_sweep},
         {add_record},
         with_grains(add_campaign),

@@ -179,8 +179,8 @@ void SoilBinFlags::add_measures_to(CLI::App& command) {
 void SoilBinFlags::add_rig_to(CLI::App& command) {
   add_measures_to(command);
   add_value(command, wheel_mesh_flag, texts[wheel_mesh_flag], "FILE.stl|obj",
-            "the wheel as drawn, a closed mesh as large as the tire with its axle along y, in place of the one that is "
-            "made from the tire's measures")
+            "the wheel as drawn, a mesh as large as the tire, in place of the one that is made from the tire's "
+            "measures; soilbin mesh FILE tells what is in it")
       ->group(grains_heading);
   add_value(command, "--packing", packing, "SEED", "seed of the bed; 1")->group(grains_heading);
   add_value(command, "--settling-friction", texts["--settling-friction"], settling_type,

@@ -103,6 +103,7 @@ void ReplayRecorder::write(const ReplayKeeping& to, const std::string& title, st
   written_ = true;
   replay_.title = title;
   replay_.facts = {{"packing", std::to_string(packing)}, {"sources", to.source}};
+  thin_out(replay_);
   write_file_atomically(to.file, replay_bytes(replay_));
   replay_ = {};
   ids_.clear(), place_.clear();

@@ -23,6 +23,9 @@ namespace {
 constexpr double most_steps = 65535;
 constexpr std::size_t largest_replay = 256U << 20U;  // [bytes]; a page with one is a third larger
 
+/// Of the bytes before they are compressed: what a browser takes in one piece.
+constexpr std::uint64_t largest_payload = 2ULL << 30U;
+
 /// The grid on which places are told.
 struct Raster {
   Point origin{};
@@ -119,12 +122,42 @@ void add_pressing(const Replay& replay, const std::vector<std::size_t>& order, P
           std::lround(255 * std::sqrt(std::clamp(frame.pressing.empty() ? 0.0 : frame.pressing[k] / most, 0.0, 1.0)))));
 }
 
-/// Of the bytes before they are compressed, as the header has it.
-std::uint64_t payload_size(const Json& header) {
-  const auto count = [&](const char* key) { return header.at(key).get<std::uint32_t>(); };
-  const std::uint64_t grains = count("grains"), frames = count("frames");
-  const std::uint64_t of_a_place = header.contains("pressing") ? 7 : 6;
-  return 4 * grains + 12ULL * count("vertices") + 12ULL * count("triangles") + of_a_place * grains * frames;
+/// Of the bytes before they are compressed.
+std::uint64_t payload_size(std::uint64_t grains, std::uint64_t frames, std::uint64_t vertices, std::uint64_t triangles,
+                           bool with_pressing) {
+  return 4 * grains + 12 * vertices + 12 * triangles + (with_pressing ? 7 : 6) * grains * frames;
+}
+
+/// The same as the header has it; counts have 32 bits, so that their products do not overflow.
+std::uint64_t payload_size(const Json& header, const std::string& place) {
+  const auto count = [&](const char* key) {
+    const Json& value = header.at(key);
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max() / 8)
+      throw InputError(fmt::format("{}: {} is no count", place, key));
+    return value.get<std::uint64_t>();
+  };
+  return payload_size(count("grains"), count("frames"), count("vertices"), count("triangles"),
+                      header.contains("pressing"));
+}
+
+/// Lists that a page goes through frame by frame: as many entries as frames, each of so many finite numbers.
+void check_frames(const Json& header, std::size_t frames, const std::string& place) {
+  const auto check = [&](const char* key, std::size_t numbers, bool older_files_have_it) {
+    if (!older_files_have_it && !header.contains(key)) return;
+    const Json& list = header.at(key);
+    const auto fits = [&](const Json& entry) {
+      if (numbers == 0) return entry.is_number() && std::isfinite(entry.get<double>());
+      return entry.is_array() && entry.size() == numbers && std::ranges::all_of(entry, [](const Json& one) {
+               return one.is_number() && std::isfinite(one.get<double>());
+             });
+    };
+    if (!list.is_array() || list.size() != frames || !std::ranges::all_of(list, fits))
+      throw InputError(fmt::format("{}: {} has not an entry for each of {} frames\n  hint: make the replay again",
+                                   place, key, frames));
+  };
+  if (frames == 0) throw InputError(fmt::format("{}: there are no frames\n  hint: make the replay again", place));
+  check("times", 0, true), check("wheel", 3, true), check("rotation", 4, true);
+  check("force", 3, false), check("torque", 3, false);
 }
 
 /// Refuses a payload that doesn't come out whole, by zlib's own checksum, or with another size.
@@ -173,6 +206,17 @@ Json header_of(const Replay& replay, const Raster& grid) {
 
 }  // namespace
 
+void thin_out(Replay& replay) {
+  const auto size_of = [&](std::size_t frames) {
+    return payload_size(replay.radii.size(), frames, replay.tire.size(), replay.triangles.size(), true);
+  };
+  while (replay.frames.size() > 2 && size_of(replay.frames.size()) > largest_payload) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < replay.frames.size(); k += 2) replay.frames[kept++] = std::move(replay.frames[k]);
+    replay.frames.resize(kept);
+  }
+}
+
 std::string replay_bytes(const Replay& replay) {
   if (replay.frames.empty()) throw InputError("a replay needs at least one frame");
   for (const ReplayFrame& frame : replay.frames)
@@ -210,8 +254,15 @@ ReplayFile read_replay(const std::filesystem::path& path) {
     for (const Json& fact : header.at("facts")) file.facts.emplace_back(fact.at(0), fact.at(1));
     file.grains = header.at("grains");
     file.frames = header.at("frames");
+    const std::uint64_t size = payload_size(header, place);
+    if (size > largest_payload)
+      throw InputError(
+          fmt::format("{}: {} grains in {} frames are {} bytes, more than the {} that a page takes\n"
+                      "  hint: a replay of fewer grains",
+                      place, file.grains, file.frames, size, largest_payload));
+    check_frames(header, file.frames, place);
     file.seconds = header.at("times").back().get<double>() - header.at("times").front().get<double>();
-    check_payload(std::string_view(file.bytes).substr(end + 1), payload_size(header), path.string());
+    check_payload(std::string_view(file.bytes).substr(end + 1), size, path.string());
     return 0;
   });
   return file;

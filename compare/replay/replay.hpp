@@ -46,6 +46,9 @@ struct Replay {
 
 inline constexpr const char* replay_format = "soilbin-replay/1";
 
+/// Leaves out every second frame, again and again, until a page can take the rest: 2 GiB before they are compressed.
+void thin_out(Replay& replay);
+
 /// The file's bytes. Header keys that older files lack: "bin", "force", "torque", and "pressing": the largest normal
 /// force [N] that a byte of 255 stands for; where it is there, a byte for each grain of each frame follows the places,
 /// 255 sqrt(F/pressing). Grains are told in the order of their first x, so that what a wheel moves lies together.
@@ -62,7 +65,8 @@ struct ReplayFile {
   std::string bytes;
 };
 
-/// Throws InputError for a file that can't be read or is no replay.
+/// Throws InputError for a file that can't be read or is no replay, one whose header contradicts itself, and one of
+/// more than 2 GiB once it is unpacked; that is told before it is.
 ReplayFile read_replay(const std::filesystem::path& path);
 
 }  // namespace soilbin::compare

@@ -148,6 +148,95 @@ H5::StrType text_of(std::size_t length) {
   return type;
 }
 
+/// What is allowed of a file, and what has been seen of it.
+struct Inspection {
+  static constexpr hsize_t most_objects = 10'000, most_attributes = 1'000;
+  static constexpr hsize_t free_bytes = 64U << 20U, most_unpacking = 128;  // of the whole file
+  static constexpr hsize_t most_inflating = 1100, compact = 4096;          // of a dataset: deflate's own limit is 1032
+
+  std::size_t file_bytes;
+  hsize_t objects = 0, bytes = 0;
+  std::string refused{};  ///< the place, and why
+
+  bool refuse(const std::string& name, const char* why) {
+    if (refused.empty()) refused = fmt::format("/{} {}", name, why);
+    return false;
+  }
+
+  bool allows_filters(const std::string& name, const H5::DSetCreatPropList& how) {
+    for (int k = 0; k < how.getNfilters(); ++k) {
+      std::size_t values = 0;
+      unsigned flags = 0, setting = 0;
+      const H5Z_filter_t filter = how.getFilter(k, flags, values, nullptr, 0, nullptr, setting);
+      if (filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_FLETCHER32)
+        return refuse(name, "goes through a filter that soilbin doesn't use");
+    }
+    return true;
+  }
+
+  bool allows_dataset(const std::string& name, const H5::DataSet& set) {
+    const H5::DSetCreatPropList how = set.getCreatePlist();
+    if (how.getLayout() == H5D_VIRTUAL) return refuse(name, "is a virtual dataset, made of others");
+    if (how.getExternalCount() > 0) return refuse(name, "lies in another file");
+    if (!allows_filters(name, how)) return false;
+    const H5T_class_t kind = set.getTypeClass();
+    if (kind != H5T_INTEGER && kind != H5T_FLOAT) return refuse(name, "has no numbers");
+    hsize_t size = set.getDataType().getSize();
+    for (const std::uint64_t length : shape_of(set.getSpace())) {
+      constexpr hsize_t beyond_all = hsize_t{1} << 40U;
+      if (length != 0 && size > beyond_all / length) return refuse(name, "is larger than any file");
+      size *= length;
+    }
+    bytes += size;
+    if (size > most_inflating * set.getStorageSize() + compact || bytes > free_bytes + most_unpacking * file_bytes)
+      return refuse(name, "is larger than the file can hold");
+    return true;
+  }
+
+  bool allows(hid_t group, const char* name, const H5L_info_t& link) {
+    if (++objects > most_objects) return refuse(name, "is one object too many");
+    if (link.type != H5L_TYPE_HARD) return refuse(name, "is a link");
+    const hid_t id = H5Oopen(group, name, H5P_DEFAULT);
+    require(id >= 0);
+    const H5I_type_t kind = H5Iget_type(id);
+    bool allowed = false;
+    if (kind == H5I_DATASET) {
+      const H5::DataSet set(id);
+      allowed = set.getNumAttrs() <= static_cast<int>(most_attributes) ? allows_dataset(name, set)
+                                                                       : refuse(name, "has too many attributes");
+    } else if (kind == H5I_GROUP) {
+      const H5::Group here(id);
+      allowed = here.getNumAttrs() <= static_cast<int>(most_attributes) || refuse(name, "has too many attributes");
+    } else {
+      refuse(name, "is neither numbers nor a group of them");
+    }
+    H5Oclose(id);
+    return allowed;
+  }
+};
+
+/// Called by HDF5 for each link: no exception may pass.
+herr_t inspect_link(hid_t group, const char* name, const H5L_info_t* link, void* inspection) {
+  auto& seen = *static_cast<Inspection*>(inspection);
+  try {
+    return seen.allows(group, name, *link) ? 0 : 1;
+  } catch (const H5::Exception& error) {
+    seen.refuse(name, "can't be read");
+    return 1;
+  } catch (const std::exception&) {
+    seen.refuse(name, "can't be looked at");
+    return 1;
+  }
+}
+
+void inspect(const H5::H5File& file, std::size_t bytes, const std::string& name) {
+  Inspection seen{.file_bytes = bytes};
+  const herr_t status = H5Lvisit(file.getId(), H5_INDEX_NAME, H5_ITER_NATIVE, inspect_link, &seen);
+  if (seen.refused.empty()) return require(status >= 0);
+  throw InputError({name + ": " + seen.refused.substr(0, seen.refused.find(' ')), 0, 0},
+                   seen.refused.substr(seen.refused.find(' ') + 1), "", "the file is not as soilbin wrote it");
+}
+
 /// HDF5 takes two open files of one name for the same, in memory too.
 std::string unused_name() {
   static std::atomic<std::uint64_t> count{0};
@@ -254,6 +343,9 @@ std::string Group::get_text(const std::string& name) const {
     if (type.getClass() != H5T_STRING || H5Tis_variable_str(type.getId()) != 0 ||
         !shape_of(attribute.getSpace()).empty())
       throw InputError({place(name), 0, 0}, "is not a text", "", "the file is of another program");
+    constexpr std::size_t longest = 1U << 20U;
+    if (type.getSize() > longest)
+      throw InputError({place(name), 0, 0}, "is longer than any text", "", "the file is of another program");
     std::string text(type.getSize(), '\0');
     attribute.read(type, text.data());
     text.resize(text.find_last_not_of('\0') + 1);
@@ -345,6 +437,7 @@ InputFile::InputFile(std::string_view image, const std::string& name)
         // HDF5 copies the image; it only lacks a const.
         require(H5Pset_file_image(access.getId(), const_cast<char*>(image.data()), image.size()) >= 0);
         const H5::H5File file(unused_name(), H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, access);
+        inspect(file, image.size(), name);
         return Group(std::make_shared<Group::Handle>(file.openGroup("/"), name, "/"));
       })) {}
 

@@ -87,6 +87,11 @@ class OutputFile {
 };
 
 /// A file that lies in memory. `name` is for messages.
+///
+/// Its whole is looked over before anything is read: InputError for links other than hard ones and for data outside the
+/// file or made of other data (external, virtual), which would have other files opened; for filters other than ours;
+/// for what is no number; for more than 10,000 objects, or 1,000 attributes of one; for a dataset that is larger than
+/// what is stored of it can unpack to, and where all of them together have more than 64 MiB and 128 times the file.
 class InputFile {
  public:
   InputFile(std::string_view image, const std::string& name);

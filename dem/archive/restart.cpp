@@ -66,8 +66,8 @@ void save_meshes(const Saver& a, const std::vector<SharedMesh>& meshes) {
     const Saver one = a.inner(std::to_string(k));
     one.text("name", meshes[k]->name());
     one.value("closed", meshes[k]->closed());
-    one.length("vertices_count", meshes[k]->vertices());
-    one.length("triangles_count", meshes[k]->triangles());
+    one.length("vertices_count", meshes[k]->vertices(), "vertices");
+    one.length("triangles_count", meshes[k]->triangles(), "triangles");
     one.column("vertices", meshes[k]->vertices(), itself, "m");
     one.column("triangles", meshes[k]->triangles(), itself);
   }
@@ -84,8 +84,8 @@ std::vector<SharedMesh> load_meshes(const Loader& a) {
     one.value("closed", options.closed);
     std::vector<Vec3> vertices;
     std::vector<TriangleMesh::Corners> triangles;
-    one.length("vertices_count", vertices);
-    one.length("triangles_count", triangles);
+    one.length("vertices_count", vertices, "vertices");
+    one.length("triangles_count", triangles, "triangles");
     one.column("vertices", vertices, itself);
     one.column("triangles", triangles, itself);
     meshes[k] = std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles), options);
@@ -181,7 +181,9 @@ Notes load_notes(const hdf5::Group& from) {
   for (const std::string& name : from.names()) {
     const hdf5::Shape shape = from.shape(name);
     std::string& text = notes[name];
-    text.resize(shape.empty() ? 1 : shape[0]);
+    if (shape.size() != 1)
+      throw InputError({from.place(name), 0, 0}, "is not a text", "", "the file is of another program");
+    text.resize(shape[0]);
     from.read(name, hdf5::Number::u8, {text.size()}, text.data());
   }
   return notes;
@@ -213,7 +215,12 @@ void save(const hdf5::Group& root, const Setup& setup, const State& state, const
 Grains load_grains(const hdf5::Group& root, Clumps& clumps) {
   const Loader ours(root.open("soilbin"));
   Grains grains;
-  ours.inner("state").length("grains", grains.id);
+  std::uint64_t told = 0;
+  ours.inner("state").value("grains", told);
+  const hdf5::Group ids = root.open("particles").open("grains").open("id");
+  if (ids.shape("value") != hdf5::Shape{1, told})
+    throw InputError({ids.place("value"), 0, 0}, "contradicts the rest", "", "the file is of another program");
+  grains.id.resize(told);
   const std::size_t count = grains.id.size();
   grains.motion.resize(count);
   grains.spin.resize(count);
@@ -253,8 +260,8 @@ void write_restart(const fs::path& path, const Setup& setup, const State& state,
 }
 
 Restart read_restart(const fs::path& path) {
-  const SealedFile sealed(path, restart_kind);
   try {
+    const SealedFile sealed(path, restart_kind);
     return load(hdf5::InputFile(sealed.content(), path.string()).root(), path.string());
   } catch (const std::bad_alloc&) {
     throw InputError({path.string(), 0, 0}, "needs more memory than there is");

@@ -28,7 +28,9 @@ struct Restart {
 void write_restart(const std::filesystem::path& path, const Setup& setup, const State& state, const Notes& notes = {},
                    Keep keep = Keep::previous);
 
-/// Throws InputError for a file that can't be read, is cut short, damaged, foreign, or of another version.
+/// Throws InputError for a file that can't be read, is cut short, damaged, foreign, or of another version, and for one
+/// whose seal fits but whose content no run can have: places, sizes or steps that are none, numbers of rows that the
+/// file doesn't fill, links, and data that lie elsewhere (hdf5::InputFile).
 Restart read_restart(const std::filesystem::path& path);
 
 /// Whether there is a restart, or the one before it, good or not.

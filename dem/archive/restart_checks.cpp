@@ -3,8 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "dem/engine/rayleigh_time.hpp"
+#include "dem/surface/positive.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
@@ -18,6 +21,34 @@ bool divides(const std::vector<std::uint32_t>& begins, std::size_t end) {
 template <class Rows>
 bool below(const Rows& rows, std::size_t limit) {
   return std::all_of(rows.begin(), rows.end(), [&](auto row) { return row < limit; });
+}
+
+/// Places and sizes that a run can have; a grain that was lost is not far outside. Velocities may be none: a run that
+/// stopped because of them is looked at.
+bool grains_are_sound(const Setup& setup, const State& state) {
+  const Vec3 side = setup.domain.upper - setup.domain.lower;
+  const Domain around{setup.domain.lower - side, setup.domain.upper + side, {}};
+  for (std::size_t k = 0; k < state.grains.count(); ++k) {
+    const Motion& motion = state.grains.motion[k];
+    if (!is_finite(motion.position) || !around.contains(motion.position) || !positive(motion.radius) ||
+        !(motion.inverse_mass >= 0 && std::isfinite(motion.inverse_mass)) ||
+        !(state.grains.spin[k].inverse_inertia >= 0 && std::isfinite(state.grains.spin[k].inverse_inertia)))
+      return false;
+  }
+  return std::ranges::all_of(state.searched_at, is_finite);
+}
+
+/// Steps that get somewhere: a millionth of the usual one does not.
+bool step_is_sound(const Setup& setup, const State& state) {
+  const double dt = setup.numerics.dt;
+  if (!positive(dt) || !std::isfinite(state.time) || state.step < 0 || !is_finite(state.gravity)) return false;
+  return state.grains.count() == 0 || dt >= 1e-6 * rayleigh_time(setup.materials, state.grains);
+}
+
+/// Ids are places in tables of as many rows.
+bool ids_are_sound(const State& state) {
+  constexpr std::size_t taken_away = 1'000'000, times_as_many = 64;
+  return state.next_id <= taken_away + times_as_many * state.grains.count();
 }
 
 bool bodies_fit(const State& state, std::size_t materials) {
@@ -97,8 +128,12 @@ void check_restart(const Setup& setup, const State& state, const std::string& fi
   require(materials >= 1 && materials <= most_materials && setup.materials.interactions.size() == materials * materials,
           "materials");
   require(below(state.grains.material, materials) && below(state.grains.id, state.next_id), "grains");
+  require(ids_are_sound(state), "numbers of grains");
+  require(grains_are_sound(setup, state), "places and sizes of grains");
+  require(step_is_sound(setup, state), "time step");
   require(clumps_fit(state), "clumps");
   require(bodies_fit(state, materials), "bodies");
+  for (const Body& body : state.bodies) check(body, static_cast<int>(materials));
   // Grains that were added since the last search are in no slab yet.
   const std::size_t searched = state.searched_at.size();
   require(searched <= grains && (state.slab_rows.empty() ? searched == 0 : divides(state.slab_rows, searched)),

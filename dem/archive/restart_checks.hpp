@@ -7,8 +7,8 @@
 
 namespace soilbin::dem {
 
-/// Whether all that is an index leads somewhere: a restart that another program made must not crash ours. Throws
-/// InputError that names the file and the part.
+/// Whether all that is an index leads somewhere, and places, sizes and steps are such as a run can have: a restart that
+/// another program made must not crash ours. Throws InputError that names the file and the part.
 void check_restart(const Setup& setup, const State& state, const std::string& file);
 
 }  // namespace soilbin::dem

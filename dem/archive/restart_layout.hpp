@@ -120,12 +120,12 @@ void describe_grains(const Archive& a, T& grains) {
 template <class Archive, class T>
 void describe_pairs(const Archive& a, T& pairs) {
   auto& [first, second, kind, memory, touching, slab_begin] = pairs;
-  a.length("pairs", first);
-  a.length("second", second);
-  a.length("kinds", kind);
-  a.length("numbers", memory);
-  a.length("batches", touching);
-  a.length("slabs", slab_begin);
+  a.length("pairs", first, "first");
+  a.length("second", second, "second");
+  a.length("kinds", kind, "kind");
+  a.length("numbers", memory, "memory");
+  a.length("batches", touching, "touching");
+  a.length("slabs", slab_begin, "slab_begin");
   a.column("first", first, itself);
   a.column("second", second, itself);
   a.column("kind", kind, itself);
@@ -155,10 +155,10 @@ void describe_who(const Archive& a, Rows& rows, const Project& who) {
 template <class Archive, class T>
 void describe_surfaces(const Archive& a, T& flat) {
   auto& [near_begin, made_begin, near, made] = flat;
-  a.length("slabs", near_begin);
-  a.length("slabs_made", made_begin);
-  a.length("count_near", near);
-  a.length("count_made", made);
+  a.length("slabs", near_begin, "near_begin");
+  a.length("slabs_made", made_begin, "made_begin");
+  a.length("count_near", near, "near/grain");
+  a.length("count_made", made, "made/grain");
   a.column("near_begin", near_begin, itself);
   a.column("made_begin", made_begin, itself);
   describe_who(a.inner("near"), near, itself);
@@ -185,7 +185,7 @@ struct FlatSurface {
 template <class Archive, class T>
 void describe_flat(const Archive& a, T& surfaces) {
   static_assert(sizeof(FlatSurface) == 56 && sizeof(Plane) == 48);
-  a.length("count", surfaces);
+  a.length("count", surfaces, "point");
   a.column(
       "point", surfaces, [](auto& row) -> auto& { return row.plane.point; }, "m");
   a.column(
@@ -253,8 +253,8 @@ void describe_clumps(const Archive& a, C& clumps, G& clump_of_grain) {
   auto& [all, members] = clumps;
   static_assert(sizeof(Clump) == 144 && sizeof(ClumpMember) == 40);
   a.column("of_grain", clump_of_grain, itself);
-  a.length("count", all);
-  a.length("spheres", members);
+  a.length("count", all, "mass");
+  a.length("spheres", members, "id");
   a.column(
       "mass", all, [](auto& row) -> auto& { return row.mass; }, "kg");
   a.column(
@@ -290,14 +290,14 @@ void describe_state(const Archive& a, T& state) {
   a.value("travel", travel);
   a.value("next_id", next_id);
   a.length("bodies", bodies);
-  a.length("searched", searched_at);
-  a.length("slabs", slab_rows);
-  a.length("fresh", new_grains);
+  a.length("searched", searched_at, "searched_at");
+  a.length("slabs", slab_rows, "slab_rows");
+  a.length("fresh", new_grains, "new_grains");
   a.column("searched_at", searched_at, itself, "m");
   a.column("slab_rows", slab_rows, itself);
   a.column("new_grains", new_grains, itself);
-  a.length("slabs_calm", calm);
-  a.length("body_loads", body_loads);
+  a.length("slabs_calm", calm, "calm");
+  a.length("body_loads", body_loads, "body_loads_by_slab/force");
   a.column("calm", calm, itself);
   static_assert(sizeof(BodyLoad) == 48);
   const auto of_loads = a.inner("body_loads_by_slab");

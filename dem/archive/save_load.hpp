@@ -69,6 +69,9 @@ struct Parts<std::array<T, n>> {
   }
 };
 
+/// Of things that have a group each: bodies, meshes, materials.
+inline constexpr std::uint64_t most_groups = 10'000;
+
 /// The row itself, for columns of numbers.
 inline constexpr auto itself = [](auto& row) -> auto& { return row; };
 
@@ -104,8 +107,9 @@ class Saver {
   void choice(const std::string& name, Choice choice, const std::array<const char*, n>& names) const {
     group_.set_text(name, names.at(static_cast<std::size_t>(choice)));
   }
+  /// `column`: the dataset that has as many rows; none where each has a group of its own.
   template <class Rows>
-  void length(const std::string& name, const Rows& rows) const {
+  void length(const std::string& name, const Rows& rows, const std::string& = "") const {
     value(name, static_cast<std::uint64_t>(rows.size()));
   }
   template <class Rows, class Project>
@@ -167,10 +171,15 @@ class Loader {
     throw InputError({group_.place(name), 0, 0}, "'" + found + "' is not known", "",
                      "read it with the soilbin that wrote it");
   }
+  /// Makes room for as many rows as the file says, once its column has them: what a file says takes no memory that the
+  /// file doesn't fill.
   template <class Rows>
-  void length(const std::string& name, Rows& rows) const {
+  void length(const std::string& name, Rows& rows, const std::string& column = "") const {
     std::uint64_t size = 0;
     value(name, size);
+    const hdf5::Shape shape = column.empty() ? hdf5::Shape{} : group_.shape(column);
+    if (column.empty() ? size > most_groups : shape.empty() || shape[0] != size)
+      throw InputError({group_.place(name), 0, 0}, "contradicts the rest", "", "the file is of another program");
     rows.resize(size);
   }
   /// `rows` has its length already.

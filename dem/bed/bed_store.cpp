@@ -2,10 +2,16 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <optional>
+#include <system_error>
+#include <variant>
 
 #include "dem/archive/restart.hpp"
 #include "dem/archive/sealed_file.hpp"
+#include "dem/bed/grain_shape.hpp"
+#include "dem/surface/mass_properties.hpp"
+#include "dem/surface/positive.hpp"
 #include "scenario/checksum.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/quantity.hpp"
@@ -20,22 +26,63 @@ constexpr int graded_version = 2;  // 1: small grains were put in more often tha
 constexpr const char* recipe_note = "bed_recipe";
 constexpr const char* time_note = "settling_time";
 
+[[noreturn]] void refuse_bed(const std::filesystem::path& file, const char* why) {
+  throw InputError({file.string(), 0, 0}, why);
+}
+
+/// Whether the state is one of grains of the recipe, at rest in its bin.
+bool is_bed_of(const State& state, const BedRecipe& recipe, const Setup& setup) {
+  const GrainProportions of = proportions_of(recipe.soil);
+  constexpr double rounding = 1e-9;
+  const bool lone_spheres = recipe.soil.shape == GrainShape::sphere;
+  const double smallest = of.sphere * recipe.soil.radius_min * (1 - rounding),
+               largest = of.sphere * recipe.grading.factor * recipe.soil.radius_max * (1 + rounding);
+  const double spheres = static_cast<double>(state.grains.count()) / spheres_of(recipe.soil.shape);
+  if (state.grains.count() == 0 || spheres > 1.1 * expected_grains(recipe) + 100) return false;
+  for (std::size_t k = 0; k < state.grains.count(); ++k) {
+    const Motion& grain = state.grains.motion[k];
+    if (!setup.domain.contains(grain.position) || grain.radius < smallest || grain.radius > largest ||
+        (lone_spheres &&
+         !(std::abs(grain.inverse_mass * sphere_mass(recipe.soil.grain_density, grain.radius) - 1) < rounding)) ||
+        !is_finite(grain.velocity) || !is_finite(state.grains.spin[k].rate))
+      return false;
+  }
+  const Body bin = bin_of(recipe.size);
+  if (state.bodies.size() != 1 || state.bodies[bin_body].surfaces.size() != bin.surfaces.size()) return false;
+  for (std::size_t k = 0; k < bin.surfaces.size(); ++k) {
+    const auto* plane = std::get_if<Plane>(&state.bodies[bin_body].surfaces[k].shape);
+    const Plane& right = std::get<Plane>(bin.surfaces[k].shape);
+    if (plane == nullptr || plane->point != right.point || plane->normal != right.normal) return false;
+  }
+  return state.gravity == Vec3{0, 0, -recipe.gravity};
+}
+
+/// The bed in a file. Its setup follows from the recipe, whatever the file says. Throws InputError where it isn't the
+/// recipe's.
+SettledBed bed_in(const std::filesystem::path& file, const BedRecipe& recipe, const WorkOptions& how) {
+  Restart restart = read_restart(file);
+  const auto text = restart.notes.find(recipe_note), time = restart.notes.find(time_note);
+  if (text == restart.notes.end() || text->second != recipe_text(recipe) || time == restart.notes.end())
+    refuse_bed(file, "is the bed of another recipe");
+  const std::optional<double> seconds = read_number(time->second);
+  SettledBed bed{
+      .recipe = recipe, .setup = setup_of(recipe, how.threads), .state = std::move(restart.state), .report = {}};
+  if (!seconds || !(*seconds >= 0) || restart.setup.numerics.dt != bed.setup.numerics.dt ||
+      restart.setup.domain != bed.setup.domain || !is_bed_of(bed.state, recipe, bed.setup))
+    refuse_bed(file, "is not the bed that its recipe gives");
+  bed.report = report_on(Simulation(bed.setup, bed.state), recipe.size);
+  bed.report.settling_time = *seconds;
+  return bed;
+}
+
 std::optional<SettledBed> read_bed(const std::filesystem::path& file, const BedRecipe& recipe, const WorkOptions& how) {
-  if (!std::filesystem::exists(file)) return std::nullopt;
+  std::error_code none;
+  if (!std::filesystem::exists(file, none)) return std::nullopt;
   try {
-    Restart restart = read_restart(file);
-    const auto text = restart.notes.find(recipe_note), time = restart.notes.find(time_note);
-    if (text == restart.notes.end() || text->second != recipe_text(recipe) || time == restart.notes.end())
-      return std::nullopt;
-    const std::optional<double> seconds = read_number(time->second);
-    if (!seconds) return std::nullopt;
-    SettledBed bed{.recipe = recipe, .setup = restart.setup, .state = std::move(restart.state), .report = {}};
-    bed.setup.numerics.threads = how.threads;
-    bed.report = report_on(Simulation(bed.setup, bed.state), recipe.size);
-    bed.report.settling_time = *seconds;
-    return bed;
-  } catch (const InputError&) {
-    return std::nullopt;  // damaged, or of another version: settled anew
+    return bed_in(file, recipe, how);
+  } catch (const InputError& error) {  // damaged, of another version, or made by somebody else
+    if (how.tell) how.tell(fmt::format("note: {}\n  the bed is settled anew", error.what()));
+    return std::nullopt;
   }
 }
 

@@ -27,8 +27,9 @@ class BedStore {
   explicit BedStore(std::filesystem::path folder = {}) : folder_(std::move(folder)) {}
 
   /// The bed of this recipe: from memory, from its file, or settled now. A file whose recipe differs from the one asked
-  /// for, or that is damaged, is settled anew and replaced. Of a graded bed `how` is told its zones. A bed that can't
-  /// be written is told by `how` and used all the same; so a folder that may only be read serves what is there.
+  /// for, or that is damaged, or holds what the recipe can't have given, is settled anew and replaced, and `how` is
+  /// told. Of a graded bed `how` is told its zones. A bed that can't be written is told by `how` and used all the same;
+  /// so a folder that may only be read serves what is there.
   std::shared_ptr<const SettledBed> bed(const BedRecipe& recipe, const WorkOptions& how = {});
 
   /// Which is there when the bed is. LAMMPS keeps grains in a folder of their own.

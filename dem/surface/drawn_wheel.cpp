@@ -74,6 +74,8 @@ DrawnWheel placed(const Drawing& drawing, LengthUnit unit, char axle, const Vec3
       .mends = drawing.mends};
   const Extent extent(wheel.mesh.vertices(), 'y', {});
   wheel.radius = extent.reach, wheel.left = extent.left, wheel.right = extent.right;
+  for (const Vec3& place : drawing.mends.places)
+    wheel.mended_at.push_back(unit.metres * turned_to_y(place - middle, axle));
   wheel.changes = drawing.mends.in_words(unit.name);
   if (axle != 'y')
     wheel.changes.push_back(fmt::format("turned from axle {} to axle y: forward is the drawing's {}", axle,
@@ -138,12 +140,13 @@ DrawnWheel read_wheel(const std::filesystem::path& file, std::optional<LengthUni
   const Vec3 middle = drawing.middle(axle);
   const Extent centred(drawing.soup.vertices, axle, middle), as_drawn(drawing.soup.vertices, axle, {});
   std::vector<std::string> others;
+  const bool guessed = !unit;
   for (const LengthUnit one : drawing_units) {
     const double radius = one.metres * centred.reach;
     if (!(radius >= smallest_radius && radius <= largest_radius)) continue;
     if (!unit)
       unit = one;
-    else if (unit->metres != one.metres)
+    else if (guessed)
       others.push_back(fmt::format("{} (radius {} mm)", one.name, in_mm(radius)));
   }
   if (!unit)

@@ -33,6 +33,7 @@ struct DrawnWheel {
   double left = 0, right = 0;              ///< from where to where it goes along its axle [m]
   double volume = 0;                       ///< within its outer surface [m^3]
   MeshMends mends;
+  std::vector<Vec3> mended_at{};       ///< some of the places where slivers, doubled and split triangles were [m]
   std::vector<std::string> changes{};  ///< sentences: what was mended, turned and moved; empty: nothing
 
   double width() const { return right - left; }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "dem/surface/positive.hpp"
 #include "dem/surface/vertex_tree.hpp"
 #include "scenario/errors.hpp"
 
@@ -15,8 +16,6 @@ namespace {
 using Corners = TriangleMesh::Corners;
 
 std::string show(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g}) m", p.x, p.y, p.z); }
-
-bool finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 int next(int i) { return i == 2 ? 0 : i + 1; }
 
@@ -44,7 +43,7 @@ void refuse_mesh(const std::string& name, const std::string& message, const std:
 void check_numbers(const std::vector<Vec3>& vertices, const std::vector<Corners>& triangles, const std::string& name) {
   if (triangles.empty()) refuse_mesh(name, "there are no triangles", "a surface needs one at least");
   for (std::size_t v = 0; v < vertices.size(); ++v) {
-    if (!finite(vertices[v])) {
+    if (!is_finite(vertices[v])) {
       refuse_mesh(name, fmt::format("vertex {} at {} is not finite", v, show(vertices[v])),
                   "numbers count from 0; check the program that wrote the mesh");
     }

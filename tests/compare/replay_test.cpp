@@ -1,20 +1,27 @@
 #include "compare/replay/replay.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <random>
 
 #include "compare/report/javascript.hpp"
+#include "compare/report/sealed_json.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
 namespace {
+
+using testing::HasSubstr;
 
 /// Two grains that move, one that rests; given out of the order of x.
 Replay three_grains() {
@@ -147,6 +154,78 @@ TEST(Replay, RefusesWhatIsNone) {
   EXPECT_EQ(file.frames, 4U);
   EXPECT_NEAR(file.seconds, 0.3, 1e-12);
   std::filesystem::remove(path);
+}
+
+/// A replay with its header changed and sealed anew.
+std::string sealed_again(const std::string& bytes, const std::function<void(nlohmann::ordered_json&)>& change) {
+  const std::size_t end = bytes.find('\n');
+  auto header = nlohmann::ordered_json::parse(bytes.substr(0, end));
+  header.erase("seal");
+  change(header);
+  put_seal(header);
+  return header.dump() + bytes.substr(end);
+}
+
+// The seal fits, and the header is of an attacker: refused in a moment, and by name. Without times it was signal 11.
+TEST(Replay, ASealThatFitsProvesNothing) {
+  const auto path = std::filesystem::temp_directory_path() / ("soilbin-hostile-replay-" + std::to_string(::getpid()));
+  const std::string bytes = replay_bytes(three_grains());
+  const auto says = [&](const std::string& replay) -> std::string {
+    std::ofstream(path, std::ios::binary) << replay;
+    try {
+      read_replay(path);
+      return "";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos);
+      return error.what();
+    }
+  };
+  using Header = nlohmann::ordered_json;
+  const auto changed = [&](const std::function<void(Header&)>& change) { return says(sealed_again(bytes, change)); };
+  EXPECT_EQ(changed([](Header&) {}), "");
+  for (const char* key : {"times", "wheel", "rotation", "force", "torque"}) {
+    EXPECT_THAT(changed([&](Header& h) { h[key] = Header::array(); }), HasSubstr(key));
+    EXPECT_THAT(changed([&](Header& h) { h[key][1] = "none"; }), HasSubstr(key));
+    EXPECT_THAT(changed([&](Header& h) { h[key] = 3; }), HasSubstr(key));
+  }
+  EXPECT_THAT(changed([](Header& h) { h["frames"] = 0; }), HasSubstr("there are no frames"));
+  EXPECT_THAT(changed([](Header& h) { h["grains"] = -1; }), HasSubstr("grains is no count"));
+  EXPECT_THAT(changed([](Header& h) { h["grains"] = 1.5; }), HasSubstr("grains is no count"));
+  EXPECT_THAT(changed([](Header& h) { h["vertices"] = 4'000'000'000U; }), HasSubstr("vertices is no count"));
+  EXPECT_THAT(changed([](Header& h) { h["vertices"] = 7; }), HasSubstr("cut short or damaged"));
+  std::filesystem::remove(path);
+}
+
+// 20 MB that unpack to 20 GB took 46 s.
+TEST(Replay, ABombIsRefusedBeforeItGoesOff) {
+  const auto path = std::filesystem::temp_directory_path() / ("soilbin-bomb-replay-" + std::to_string(::getpid()));
+  std::ofstream(path, std::ios::binary) << sealed_again(replay_bytes(three_grains()), [](nlohmann::ordered_json& h) {
+    h["grains"] = 1'000'000;
+    h["frames"] = 3500;
+  }) << std::string(20'000'000, '\0');
+  const std::clock_t begin = std::clock();
+  try {
+    read_replay(path);
+    ADD_FAILURE() << "read";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("1000000 grains in 3500 frames are 21004000024 bytes, more than the 2147483648"));
+  }
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 2);
+  std::filesystem::remove(path);
+}
+
+TEST(Replay, WhatIsWrittenIsThinEnoughToBeRead) {
+  Replay long_one;
+  long_one.radii.assign(100'000, 0.01);
+  long_one.frames.resize(4000);  // of 2.8 GB; only their number is looked at
+  for (std::size_t k = 0; k < 4000; ++k) long_one.frames[k].time = static_cast<double>(k);
+  thin_out(long_one);
+  ASSERT_EQ(long_one.frames.size(), 2000U);
+  EXPECT_EQ(long_one.frames[999].time, 1998.0);
+  Replay short_one = three_grains();
+  thin_out(short_one);
+  EXPECT_EQ(short_one.frames.size(), 4U);
 }
 
 // Damage of one bit: refused with the file's name, or nothing that a page shows has changed.

@@ -7,12 +7,16 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <numbers>
 
+#include "dem/archive/restart.hpp"
 #include "dem/bed/bed_store.hpp"
 #include "dem/bed/relative_density.hpp"
 #include "dem/bed/settled_bed.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/estimate.hpp"
+#include "tests/dem/archive_scene.hpp"
 #include "tests/dem/small_bed.hpp"
 
 namespace soilbin::dem {
@@ -202,6 +206,31 @@ TEST_F(SlowBedStore, SettlesAnewWhereTheFileIsDamaged) {
   std::ofstream(store.file(small_recipe())) << "not a bed";
   EXPECT_EQ(store.bed(small_recipe(), with_threads(1))->state.grains.count(), small_bed().state.grains.count());
   EXPECT_GT(std::filesystem::file_size(store.file(small_recipe())), 1000);
+}
+
+// A bed whose seal fits, made by somebody else: it is settled anew, and that is told.
+TEST_F(SlowBedStore, SettlesAnewWhatItsRecipeDoesNotGive) {
+  const auto right = BedStore(folder_).bed(small_recipe(), with_threads(1));
+  const auto file = BedStore(folder_).file(small_recipe());
+  const std::string good = test::read_bytes(file);
+  const Restart kept = read_restart(file);
+  const auto expect_settled_anew = [&](const std::function<void(Restart&)>& change) {
+    Restart forged = kept;
+    change(forged);
+    write_restart(file, forged.setup, forged.state, forged.notes, Keep::nothing);
+    std::string told;
+    WorkOptions how = with_threads(1);
+    how.tell = [&](const std::string& words) { told += words; };
+    const auto bed = BedStore(folder_).bed(small_recipe(), how);
+    EXPECT_EQ(test::Bits(bed->state), test::Bits(right->state));
+    EXPECT_THAT(told, testing::AllOf(testing::HasSubstr(file.string()), testing::HasSubstr("settled anew")));
+    EXPECT_EQ(test::read_bytes(file), good);
+  };
+  expect_settled_anew([](Restart& bed) { bed.state.grains.motion[5].position.z = not_a_number; });
+  expect_settled_anew([](Restart& bed) {
+    bed.setup.numerics.dt /= 2;
+    for (Motion& grain : bed.state.grains.motion) grain.radius *= 1.5;
+  });
 }
 
 TEST(RelativeDensity, RunsFromTheLoosestToTheDensest) {
