@@ -80,8 +80,11 @@ void print_map(const compare::FailureMapResult& result, bool rows) {
 
 int failure_map(const FailureMapOptions& asked, const Session& session) {
   Case question = find_study(session.place, asked.study);
-  if (!asked.soil.empty())
-    question.scenario.soil.semi_empirical = find_soil(asked.soil, session.place.library).semi_empirical;
+  std::string values_of;  // the soil that --soil names
+  if (!asked.soil.empty()) {
+    const Soil given = find_soil(asked.soil, session.place.library);
+    question.scenario.soil.semi_empirical = given.semi_empirical, values_of = compare::in_words(given);
+  }
   if (!asked.stored && !asked.store.empty())  // what is only read may lie anywhere
     if (const std::string why = why_not_writable(asked.store); !why.empty()) throw InputError("--store: " + why);
   asked.batch.check(asked.store);
@@ -105,7 +108,9 @@ int failure_map(const FailureMapOptions& asked, const Session& session) {
                                  .packing = static_cast<std::uint64_t>(asked.soil_bin.packing)};
   Outputs outputs;
   try {
-    const compare::FailureMapResult result = compare::learn_map(map, grains, store, how);
+    compare::FailureMapResult result = compare::learn_map(map, grains, store, how);
+    if (std::string& soil = result.map.scenario.soil.name; !values_of.empty() && values_of != soil)
+      soil += ", analytic values of " + values_of;
     clear_progress_line();
     const compare::PageAbout about{"Failure map: " + name_of(result.map.incline), session.command, versions(),
                                    doubts_of(result, grains, store)};

@@ -1,14 +1,20 @@
 #include "cli/serve/served_answer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
+#include "bekker_wong/effect.hpp"
 #include "bekker_wong/model.hpp"
 #include "cli/progress.hpp"
+#include "compare/measured/channels.hpp"
 #include "compare/report/json_fields.hpp"
+#include "compare/report/number_text.hpp"
 #include "compare/report/plot.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/answer_tables.hpp"
+#include "compare/sweep/wheel_limits.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -21,6 +27,32 @@ constexpr int curve_points = 61;
 std::unique_ptr<const Model> make_curve_model(ModelKind kind) {
   if (kind != ModelKind::bekker_wong) return compare::make_model(kind);
   return std::make_unique<const bekker_wong::BekkerWong>(bekker_wong::Detail{.errors = true, .patch = false});
+}
+
+/// Whether forces are told in kN, as the load is.
+bool tells_kilonewtons(const ServedAnswer& one) { return one.asked.question.study.conditions.front().load >= 1000.0; }
+
+void in_kilonewtons(compare::Sheet& sheet) {
+  const std::string newtons = "[N]";
+  for (compare::Plot& plot : sheet.plots) {
+    const std::size_t at = plot.title.find(newtons);
+    if (at == std::string::npos) continue;
+    plot.title.replace(at, newtons.size(), "[kN]");
+    for (compare::Series& series : plot.series)
+      for (std::vector<double>* values : {&series.y, &series.error, &series.base})
+        for (double& value : *values) value /= 1000.0;
+  }
+}
+
+/// How far the tire gives way at the middle of its contact [m]: by what the rim's angle of entry is deeper than its
+/// sinkage. 0 for a tire whose effects do not read its inflation pressure.
+double deflection(const ServedAnswer& one, const TractionResult& result) {
+  const Case& question = one.asked.question;
+  const bool flexible = std::ranges::any_of(question.study.models.front().effects, [](const EffectChoice& effect) {
+    return bekker_wong::depends_on(bekker_wong::find_form(effect), "inflation_pressure");
+  });
+  const double rim = question.scenario.tire.radius * (1.0 - std::cos(result.entry_angle));
+  return flexible ? std::max(0.0, rim - result.sinkage.value) : 0.0;
 }
 
 }  // namespace
@@ -70,6 +102,7 @@ Json curves_json(const std::vector<ServedAnswer>& sides) {
       }
     }
   }
+  if (tells_kilonewtons(sides.front())) in_kilonewtons(all);
   return compare::to_json(all);
 }
 
@@ -84,7 +117,9 @@ Json stresses_json(const std::vector<ServedAnswer>& sides) {
 Json budget_json(const std::vector<ServedAnswer>& sides) {
   std::vector<compare::LabelledAnswers> curves;
   for (const ServedAnswer& one : sides) curves.push_back({one.label, one.curves.front().answers});
-  return compare::to_json(compare::budget_sheet("Parts of the drawbar pull", curves));
+  compare::Sheet sheet = compare::budget_sheet("Parts of the drawbar pull", curves);
+  if (tells_kilonewtons(sides.front())) in_kilonewtons(sheet);
+  return compare::to_json(sheet);
 }
 
 Json wheel_json(const ServedAnswer& one) {
@@ -100,6 +135,7 @@ Json wheel_json(const ServedAnswer& one) {
                {"drawbar_pull", result->drawbar_pull.value},
                {"torque", result->torque.value},
                {"sinkage", result->sinkage.value},
+               {"deflection", deflection(one, *result)},
                {"entry", result->entry_angle},
                {"exit", result->exit_angle},
                {"theta", Json::array()},
@@ -118,9 +154,19 @@ Json wheel_json(const ServedAnswer& one) {
 
 Json readings_json(const ServedAnswer& one) {
   Json all = Json::array();
-  if (const auto& result = one.point.front().answers.front().result)
-    for (const compare::PrintedValue& reading : compare::printed_values(*result))
-      all.push_back({{"name", reading.name}, {"value", reading.value}, {"unit", reading.unit}});
+  const auto& result = one.point.front().answers.front().result;
+  if (!result) return all;
+  const std::size_t channels = compare::channel_views.size();
+  std::vector<compare::PrintedValue> readings = compare::printed_values(*result);
+  for (std::size_t c = 0; c < channels && tells_kilonewtons(one); ++c)
+    if (readings[c].unit == "N")
+      readings[c].value = compare::number((*result).*compare::channel_views[c].predicted, 1e-3),
+      readings[c].unit = "kN";
+  if (const std::optional<double> steepest = compare::steepest_slope(one.asked.question))
+    readings.insert(readings.begin() + static_cast<std::ptrdiff_t>(channels) + 1,
+                    {"Steepest slope", compare::number(*steepest / degree), "deg"});
+  for (const compare::PrintedValue& reading : readings)
+    all.push_back({{"name", reading.name}, {"value", reading.value}, {"unit", reading.unit}});
   return all;
 }
 

@@ -190,6 +190,17 @@ std::vector<ModelAnswers> answers_of(const Case& question, const std::vector<Mod
 
 }  // namespace
 
+bool tires_differ(const Comparison& comparison, std::size_t side, std::size_t reference) {
+  const auto flexible = [&](std::size_t s) {
+    return comparison.sides[s].kind == SideKind::analytic && s < comparison.choices.size() &&
+           std::ranges::any_of(comparison.choices[s].effects, [](const EffectChoice& effect) {
+             return bekker_wong::depends_on(bekker_wong::find_form(effect), "inflation_pressure");
+           });
+  };
+  const auto rigid = [&](std::size_t s) { return comparison.sides[s].kind == SideKind::grains; };
+  return (flexible(side) && rigid(reference)) || (rigid(side) && flexible(reference));
+}
+
 bool grains_are_coarse(const Comparison& comparison) {
   const auto of_grains = [](const Side& side) { return side.kind == SideKind::grains; };
   const Case& question = comparison.question;

@@ -49,6 +49,10 @@ void check_soil_for_loop(const Soil& soil);
 /// of grains or a model means_of. Throws as that.
 Campaign as_campaign(const Side& side, const Case& question);
 
+/// Whether the pair sets a flexible tire (an analytic side whose effects read the inflation pressure) against the rigid
+/// one that grains meet.
+bool tires_differ(const Comparison& comparison, std::size_t side, std::size_t reference);
+
 /// Whether the grains of a side are coarse for the wheel (doubts/grain_doubts.hpp).
 bool grains_are_coarse(const Comparison& comparison);
 

@@ -1,4 +1,5 @@
-// A comparison as Markdown with its figures and their data beside it, for a repository or a notebook.
+// A comparison as Markdown with its figures and their data beside it, for a repository, a notebook or, by pandoc, a
+// document: one table, a condition a row; the files beside it hold the rest.
 #include <fmt/core.h>
 
 #include <filesystem>
@@ -70,14 +71,11 @@ class Markdown {
 
 void add_differences(Markdown& md, const Comparison& comparison) {
   md.text("## Where they differ");
-  md.table(tally_table(comparison));
-  if (!comparison.joint.empty()) md.table(joint_table(comparison));
   for (std::size_t k = 0; k < comparison.tallies.size(); ++k) {
     const HeatMap map = heat_map_of(comparison, comparison.tallies[k]);
     md.picture(fmt::format("heat-map-{}", k + 1), heat_map_svg(map), map.title + ", " + map.subtitle);
   }
-  for (const Tally& tally : comparison.tallies) md.table(rows_table(comparison, tally));
-  md.text("All rows: [CSV](differences.csv), [JSON](comparison.json).");
+  md.text("All rows: [CSV](differences.csv). All points: [JSON](comparison.json).");
 }
 
 void add_causes(Markdown& md, const Comparison& comparison) {
@@ -87,12 +85,10 @@ void add_causes(Markdown& md, const Comparison& comparison) {
   if (!bars.groups.empty()) {
     md.text(fmt::format("At {}:", in_words(comparison.question.study.conditions[condition])));
     md.picture("budget", bars_svg(bars, side_colors), bars.title);
-    md.table(budget_table(comparison, condition));
   }
   md.figure("stresses", stress_sheet(comparison, condition));
   for (std::size_t c = 0; c < comparison.curves.labels.size(); ++c)
     md.figure(fmt::format("contact-{}", c + 1), contact_sheet(comparison, c));
-  if (const Table table = sinkage_table(comparison); !table.rows.empty()) md.table(table);
 }
 
 }  // namespace
@@ -105,6 +101,7 @@ void write_markdown(const fs::path& folder, const Comparison& answered, const Co
   md.text("# " + plain(about.page.title));
   for (const Clause& clause : summary(comparison, about.loop ? &*about.loop : nullptr))
     md.text(fmt::format("- {}{}", clause.about.empty() ? "" : "**" + plain(clause.about) + ".** ", plain(clause.text)));
+  if (const Table matrix = matrix_table(comparison); !matrix.rows.empty()) md.table(matrix);
   if (!about.page.doubts.empty()) md.text("## Warnings");
   for (const std::string& doubt : about.page.doubts) md.text("- " + plain(doubt));
   md.text("## Curves");
@@ -115,20 +112,15 @@ void write_markdown(const fs::path& folder, const Comparison& answered, const Co
   add_causes(md, comparison);
   if (about.loop) {
     md.text("## What the analytic model lacks");
-    md.text(plain(verdict_sentence(*about.loop)));
-    if (about.loop->validation.overall.cells > 0) md.table(error_table(*about.loop));
-    if (about.loop->has_candidates()) md.table(candidates_table(*about.loop));
+    for (const Clause& clause : missing_clauses(*about.loop, about.mistaken_columns))
+      md.text(fmt::format("- **{}.** {}", plain(clause.about), plain(clause.text)));
   }
-  md.text("## Every point");
-  for (const Side& side : comparison.sides) md.table(points_table(comparison, side));
   md.text("## How to repeat this");
   md.text("    " + about.page.command);
   md.text("The resolved case is [case.yaml](case.yaml).");
-  Table facts{"", {"part", "version or value"}, {true, true}};
   const std::vector<std::pair<std::string, std::string>> ids = names_and_ids(labels);
   for (const auto* list : {&ids, &about.page.versions, &about.facts})
-    for (const auto& [name, value] : *list) facts.add({name, value});
-  md.table(facts);
+    for (const auto& [name, value] : *list) md.text(fmt::format("- {}: {}", plain(name), plain(value)));
   md.write();
   write_file_atomically(folder / "differences.csv", differences_csv(answered));
   write_file_atomically(folder / "comparison.json", json_text(comparison_json(answered, about)));

@@ -98,15 +98,19 @@ void add_curves(Page& page, const Comparison& comparison, bool coarse_grains) {
                widest != nullptr ? comparison.curves.curve_of[widest->condition] : (names.size() - 1) / 2);
 }
 
-/// The answer in a sentence or two, the curves, and what to bear in mind of both: so the curves are in sight at once.
+/// The answer and the grains' limits in a sentence or two, the curves, what the soil explains of it, then all numbers.
 void add_opening(Page& page, const Comparison& comparison, bool coarse_grains) {
-  const std::vector<BackedSentence> sentences = backed(comparison, opening(comparison));
-  if (const std::optional<Clause> first = headline(comparison))
-    page.backed_summary(backed(comparison, {*first}));
-  else
-    page.sentences({"There is nothing to compare: a single side."});
+  std::vector<Clause> clauses = opening(comparison);
+  const auto soil = std::ranges::stable_partition(clauses, [](const Clause& c) { return c.about != "The soil"; });
+  if (clauses.empty()) page.sentences({"There is nothing to compare: a single side."});
+  const std::vector<Clause> first(clauses.begin(), soil.begin()), then(soil.begin(), clauses.end());
+  if (!first.empty()) page.backed_summary(backed(comparison, first));
   add_curves(page, comparison, coarse_grains);
-  if (sentences.size() > 1) page.backed_summary({sentences.begin() + 1, sentences.end()});
+  if (!then.empty()) page.backed_summary(backed(comparison, then));
+  if (const Table matrix = matrix_table(comparison); !matrix.rows.empty()) {
+    page.section("Condition by condition", "matrix");
+    page.table(matrix);
+  }
 }
 
 void add_channels(Page& page, const Comparison& comparison) {

@@ -78,8 +78,8 @@ struct ChannelPanel {
   std::string title;  ///< with its unit
   Reader read;        ///< [SI]
   double per_si = 1.0;
-  const Smooth* smooth = nullptr;  ///< none: the conditions' own points
-  std::optional<double> lower{};   ///< what the number can't be below, in the title's unit
+  const Smooth* smooth = nullptr;          ///< none: the conditions' own points
+  std::optional<double> lower{}, upper{};  ///< what the number can't be below and above, in the title's unit
 };
 
 /// A panel with a series for each side that has a value.
@@ -93,6 +93,9 @@ void add_panel(Sheet& sheet, const Comparison& comparison, const std::vector<std
     series.label = comparison.sides[s].label;
     if (says_anything(series)) plot.series.push_back(std::move(series));
   }
+  for (const Series& series : plot.series)  // the axis ends at what is possible, and cuts a band there
+    for (std::size_t k = 0; k < series.error.size(); ++k)
+      if (panel.upper && series.y[k] + series.error[k] > *panel.upper) plot.y.upper = panel.upper;
   if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
 }
 
@@ -190,7 +193,7 @@ Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_g
   const auto efficiency = [](const SidePoint& point, std::size_t) {
     return has_efficiency(*point.result) ? efficiency_with_error(*point.result) : Estimate{not_a_number, 0.0};
   };
-  add_panel(sheet, comparison, members, {"Tractive efficiency [%]", efficiency, 100, &lines, 0.0});
+  add_panel(sheet, comparison, members, {"Tractive efficiency [%]", efficiency, 100, &lines, 0.0, 100.0});
   if (!sheet.plots.empty()) mark_limits(sheet.plots.back(), comparison, members, false, coarse_grains);
   return sheet;
 }

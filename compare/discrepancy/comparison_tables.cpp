@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -61,6 +62,64 @@ Table tally_table(const Comparison& comparison) {
   return table;
 }
 
+namespace {
+
+/// The unit of a channel's column, and how many of it are one SI unit: kN where forces are that large.
+std::pair<std::string, double> column_unit(const Comparison& comparison, std::size_t channel) {
+  const ChannelView& view = channel_views[channel];
+  bool kilo = false;
+  for (const Difference& d : comparison.differences)
+    kilo = kilo || (d.channel == channel && std::abs(d.reference_value.value) >= 1000.0);
+  kilo = kilo && view.unit == "N";
+  return {(kilo ? "k" : "") + std::string(view.unit), view.per_si / (kilo ? 1000.0 : 1.0)};
+}
+
+/// "+0.35 *": a side less the baseline; "-" where either has no result.
+std::string change_cell(const Comparison& comparison, const Tally& asked, std::size_t condition, double per_si) {
+  for (const Difference& d : comparison.differences)
+    if (d.side == asked.side && d.reference == asked.reference && d.channel == asked.channel &&
+        d.condition == condition)
+      return fmt::format("{:+.3g}{}", d.difference * per_si, d.finding == DifferenceFinding::difference ? " *" : "");
+  return "-";
+}
+
+}  // namespace
+
+Table matrix_table(const Comparison& comparison) {
+  constexpr std::size_t most_columns = 10;
+  if (comparison.tallies.empty()) return {};
+  const std::vector<Side>& sides = comparison.sides;
+  const std::size_t baseline = sides.back().kind == SideKind::analytic ? 0 : sides.size() - 1;
+  std::vector<std::size_t> channels;
+  for (std::size_t c = 0; c < channel_views.size(); ++c)
+    if (std::ranges::any_of(comparison.tallies,
+                            [&](const Tally& t) { return t.channel == c && t.reference == baseline; }))
+      channels.push_back(c);
+  if (channels.size() * sides.size() > most_columns) channels.resize(1);
+  Table table{fmt::format("Baseline: {}. Change: model less baseline; * significant", sides[baseline].label),
+              {"condition"},
+              {true}};
+  for (const std::size_t c : channels) {
+    const std::string title(channel_views[c].title), unit = column_unit(comparison, c).first;
+    table.header.push_back(fmt::format("{} [{}], {}", title, unit, sides[baseline].label));
+    for (std::size_t s = 0; s < sides.size(); ++s)
+      if (s != baseline) table.header.push_back(fmt::format("change [{}], {}", unit, sides[s].label));
+  }
+  for (std::size_t i = 0; i < comparison.question.study.conditions.size(); ++i) {
+    std::vector<TableCell> row = {in_words(comparison.question.study.conditions[i])};
+    for (const std::size_t c : channels) {
+      const double per_si = column_unit(comparison, c).second;
+      const SidePoint& point = sides[baseline].points[i];
+      row.push_back(point.result && point.has[c] ? number((*point.result).*channel_views[c].predicted, per_si) : "-");
+      for (std::size_t s = 0; s < sides.size(); ++s)
+        if (s != baseline)
+          row.push_back(change_cell(comparison, {.side = s, .reference = baseline, .channel = c}, i, per_si));
+    }
+    table.add(std::move(row));
+  }
+  return table;
+}
+
 Table rows_table(const Comparison& comparison, const Tally& tally) {
   const ChannelView& channel = channel_views[tally.channel];
   Table table{fmt::format("{} [{}]: {} against {}; ± is one standard error", channel.title, channel.unit,
@@ -74,6 +133,11 @@ Table rows_table(const Comparison& comparison, const Tally& tally) {
                number(d.reference_value, channel.per_si), number(Estimate{d.difference, d.std_error}, channel.per_si),
                number(d.scatter * channel.per_si), signed_number(100 * d.share, 2), signed_number(d.sigma, 1),
                std::string(words(d.finding))});
+  }
+  if (tally.unknown == tally.values) {  // nothing is tested, which the summary says once
+    constexpr std::size_t numbers = 4;
+    table.header.resize(numbers), table.text_columns.resize(numbers);
+    for (std::vector<TableCell>& row : table.rows) row.resize(numbers);
   }
   return table;
 }

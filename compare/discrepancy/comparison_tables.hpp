@@ -7,6 +7,10 @@
 
 namespace soilbin::compare {
 
+/// The comparison in one table, a condition a row: of each channel the baseline (measured, else grains, else the first
+/// model) and the other sides' changes against it, with a star where one is significant. The pull alone where all
+/// channels would be more than ten columns. Forces in kN where they are as large.
+Table matrix_table(const Comparison& comparison);
 /// A pair and channel a row, the widest apart first: how many differ, root mean square, mean, the widest condition.
 /// Good where the root mean square is no larger than the stated errors make it, bad where it is and any row differs.
 Table tally_table(const Comparison& comparison);

@@ -164,4 +164,18 @@ GrainSide grain_side(const std::vector<RecordedRun>& runs, const std::vector<Ope
   return grains;
 }
 
+std::string bed_density_doubt(const Soil& soil, const std::vector<RecordedRun>& runs) {
+  constexpr double alike_within = 0.03;  // of the density (chosen: a third of what loose and dense sand differ by)
+  if (!soil.semi_empirical || !soil.semi_empirical->density) return "";
+  double sum = 0.0, count = 0.0;
+  for (const RecordedRun& run : runs)
+    if (run.bed.bulk > 0.0) sum += run.bed.bulk, ++count;
+  const double declared = *soil.semi_empirical->density, bed = sum / count;
+  if (count == 0.0 || std::abs(bed / declared - 1.0) <= alike_within) return "";
+  return fmt::format(
+      "the grains' bed is {} ({:.0f} kg/m^3) than the soil of the analytic model's values ({:.0f} kg/m^3): measure the "
+      "values on this bed (soilbin bevameter, then --soil)",
+      bed < declared ? "looser" : "denser", bed, declared);
+}
+
 }  // namespace soilbin::compare

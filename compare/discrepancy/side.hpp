@@ -91,6 +91,10 @@ struct GrainSide {
 GrainSide grain_side(const std::vector<RecordedRun>& runs, const std::vector<OperatingCondition>& conditions,
                      const std::filesystem::path& record);
 
+/// Whether the bed was looser or denser, by more than 3 %, than the soil whose values the analytic model has; "" where
+/// either density is not known.
+std::string bed_density_doubt(const Soil& soil, const std::vector<RecordedRun>& runs);
+
 /// How far a measured run may be from a study's condition and still count as one of it: share of the load, slip [-],
 /// angles [rad].
 inline constexpr double near_load = 0.10, near_slip = 0.025, near_angle = 0.02;

@@ -19,6 +19,7 @@
 namespace soilbin::compare {
 namespace {
 
+constexpr std::string_view unlike_tires = "The tires differ: flexible here, rigid in the grains.";
 constexpr double chance_level = 0.05;  // share of rows beyond counting_errors where nothing differs
 
 std::vector<std::size_t> rows_of(const Comparison& comparison, const Tally& tally) {
@@ -44,6 +45,7 @@ Clause tally_clause(const Comparison& comparison, const Tally& t) {
   const std::string side = comparison.sides[t.side].label, reference = comparison.sides[t.reference].label;
   Clause clause{std::string(channel_views[t.channel].title), "", {}, rows_of(comparison, t)};
   clause.text = fmt::format("{} less {}: {}", side, reference, counts(t));
+  if (tires_differ(comparison, t.side, t.reference)) clause.text += std::string(unlike_tires) + " ";
   const std::string expected =
       t.expected_rms > 0.0 ? fmt::format("; expected from uncertainty: {}", in_unit(t.channel, t.expected_rms)) : "";
   clause.text +=
@@ -214,13 +216,24 @@ std::vector<Clause> cause_clauses(const Comparison& comparison) {
 std::vector<const Tally*> widest_first(const Comparison& comparison) {
   std::vector<const Tally*> order;
   for (const Tally& t : comparison.tallies) order.push_back(&t);
-  std::ranges::stable_sort(order, [](const Tally* a, const Tally* b) { return a->rms_share > b->rms_share; });
+  const auto unlike = [&](const Tally* t) { return tires_differ(comparison, t->side, t->reference); };
+  std::ranges::stable_sort(order, [&](const Tally* a, const Tally* b) {
+    return unlike(a) != unlike(b) ? unlike(b) : a->rms_share > b->rms_share;
+  });
   return order;
+}
+
+/// What the headline is about: the pull, of the pair that is widest apart in it; where none is compared, the widest.
+static const Tally& headline_tally(const Comparison& comparison) {
+  const std::vector<const Tally*> order = widest_first(comparison);
+  const auto pull =
+      std::ranges::find_if(order, [](const Tally* t) { return channel_views[t->channel].name == "drawbar_pull"; });
+  return pull == order.end() ? *order.front() : **pull;
 }
 
 const Difference* widest_difference(const Comparison& comparison) {
   if (comparison.tallies.empty()) return nullptr;
-  return &comparison.differences[widest_first(comparison).front()->worst];
+  return &comparison.differences[headline_tally(comparison).worst];
 }
 
 std::vector<std::string> label_sides_in_words(Comparison& comparison) {
@@ -231,7 +244,7 @@ std::vector<std::string> label_sides_in_words(Comparison& comparison) {
 
 std::optional<Clause> headline(const Comparison& comparison) {
   if (comparison.tallies.empty()) return std::nullopt;
-  const Tally& widest = *widest_first(comparison).front();
+  const Tally& widest = headline_tally(comparison);
   const Difference& worst = comparison.differences[widest.worst];
   Clause clause{"In short", "", {}, rows_of(comparison, widest)};
   clause.text =
@@ -243,6 +256,7 @@ std::optional<Clause> headline(const Comparison& comparison) {
                  : worst.finding == DifferenceFinding::within_scatter ? ": within the scatter of a run."
                  : worst.finding == DifferenceFinding::within_errors  ? ": within the errors."
                                                                       : ".";
+  if (tires_differ(comparison, widest.side, widest.reference)) clause.text += " " + std::string(unlike_tires);
   const auto count = [&](DifferenceFinding finding) {
     return std::ranges::count(comparison.differences, finding, &Difference::finding);
   };

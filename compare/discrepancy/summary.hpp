@@ -21,16 +21,15 @@ struct Clause {
 /// Calls the sides in words, in all that speaks of them, for pages and documents; gives the labels that they had.
 std::vector<std::string> label_sides_in_words(Comparison& comparison);
 
-/// The lines that a page opens with: how many numbers differ and where the sides are widest apart; how much of that a
-/// better known soil could explain; what the size of the grains does to their answers. The last two are absent where
-/// nothing can be said of them.
+/// The lines that a page opens with: the headline; how much of the difference the soil's uncertainty explains; what the
+/// size of the grains does to their answers. The last two are absent where nothing can be said of them.
 std::vector<Clause> opening(const Comparison& comparison);
 
-/// The first of these lines in so few words that a page shows the curves below it: how many numbers differ, and where
-/// the sides are widest apart. Nothing where nothing is compared.
+/// The first of these lines: the largest difference in pull (of what is compared, where no pull is), whether it is
+/// significant, and how many of all differences are. Nothing where nothing is compared.
 std::optional<Clause> headline(const Comparison& comparison);
 
-/// The row of the headline: the widest one of the pair and channel that are widest apart.
+/// The row of the headline.
 const Difference* widest_difference(const Comparison& comparison);
 
 /// Where the widest gap in pull comes from.
@@ -42,7 +41,7 @@ std::vector<Clause> missing_clauses(const LoopAnswer& loop, const std::vector<st
 /// How sure it is, what limits it, what was not compared.
 std::vector<Clause> limits_of_the_comparison(const Comparison& comparison);
 
-/// Pairs and channels, the largest share of the load first.
+/// Pairs and channels, the largest share of the load first; pairs whose tires differ (tires_differ) behind all others.
 std::vector<const Tally*> widest_first(const Comparison& comparison);
 
 /// What a tally's shares are shares of: "the load", "load x radius", "the radius".

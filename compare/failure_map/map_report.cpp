@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/doubts/grain_resolution.hpp"
 #include "compare/report/heat_map.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/sweep/answers.hpp"
 #include "compare/sweep/varying.hpp"
 
 namespace soilbin::compare {
@@ -124,6 +126,46 @@ std::string checks_sentence(const FailureMapResult& result) {
       found, 100 * rms_of(result.checks), within, right);
 }
 
+/// Whether a row lies where a clause says that the models agree; where there is no clause, any row does.
+bool in_a_clause(const FailureMapResult& result, const VectorXd& values) {
+  return result.clauses.empty() || std::ranges::any_of(result.clauses, [&](const AgreementClause& clause) {
+           for (std::size_t j = 0; j < clause.lower.size(); ++j)
+             if (const double value = values[static_cast<Index>(j)]; value < clause.lower[j] || value > clause.upper[j])
+               return false;
+           return true;
+         });
+}
+
+/// By how much the grains' own pull is off there for their size, where the study of grain sizes reaches; "" where that
+/// is little.
+std::string grains_sentence(const FailureMapResult& result) {
+  constexpr double worth_a_line = 0.01;  // of the load (chosen)
+  if (!result.map.scenario.soil.granular) return "";
+  const auto model = make_model(ModelKind::bekker_wong);
+  double sum = 0.0, squares = 0.0;
+  std::size_t known = 0, asked = 0;
+  for (const FailureRow& row : result.rows.rows) {
+    if (!row.difference || !in_a_clause(result, row.values)) continue;
+    const Scenario scenario = scenario_at(result.map, row.values);
+    const OperatingCondition at = condition_at(result.map, row.values);
+    const Answer answer = ask(*model, scenario, at);
+    if (!answer.result) continue;
+    ++asked;
+    const ResolutionError error =
+        resolution_error(scenario, at, answer.result->sinkage.value, SinkageOf::another_model);
+    if (!error.known()) continue;
+    const double share = error.drawbar_pull.value / at.load;
+    ++known, sum += share, squares += share * share;
+  }
+  const double rms = known > 0 ? std::sqrt(squares / static_cast<double>(known)) : 0.0;
+  if (rms < worth_a_line) return "";
+  return fmt::format(
+      "{} the grains' own pull is too {} by about {:.0f} % of the load, since they are coarse (RMS of {} of {} "
+      "conditions; the others are not studied).",
+      result.clauses.empty() ? "In this range" : "Where the models agree,", sum > 0.0 ? "large" : "small", 100 * rms,
+      known, asked);
+}
+
 constexpr int cells = 7;  // of a heat map, along and up
 
 std::string in_units(const Factor& factor, double value) {
@@ -160,8 +202,9 @@ Json where_known(const std::optional<Estimate>& estimate) {
   return estimate ? estimate_json(*estimate) : Json(nullptr);
 }
 
-/// The map at every setting of lug height and slip; a factor that does not vary has no slider. They start where a
-/// setting is nearest to the tire's own lugs and to 20 % slip.
+/// The map at every setting of lug height and slip; a factor that does not vary has no slider. The tire's own lug
+/// height and 20 % slip are among the settings where they lie in the range, and the sliders start there, else next to
+/// them.
 SlidingMap sliding_map_of(const FailureMapResult& result) {
   constexpr int lugs = 5, slips = 10;
   constexpr double usual_slip = 0.2;
@@ -172,6 +215,10 @@ SlidingMap sliding_map_of(const FailureMapResult& result) {
     std::vector<double> values;
     for (int i = 0; i < places; ++i) values.push_back(places == 1 ? factor.lower : level_value(factor, i, places));
     if (places > 1) {
+      if (start > factor.lower && start < factor.upper && std::ranges::none_of(values, [&](double value) {
+            return in_units(factor, value) == in_units(factor, start);
+          }))
+        values.insert(std::ranges::upper_bound(values, start), start);
       map.sliders.push_back({factor.name, {}});
       for (const double value : values) map.sliders.back().settings.push_back(in_units(factor, value));
       const auto nearest = std::ranges::min_element(values, {}, [&](double value) { return std::abs(value - start); });
@@ -216,6 +263,7 @@ std::vector<std::pair<std::string, std::string>> opening(const FailureMapResult&
           ? fmt::format("Nowhere: no part of the range is within {:.3g} % of the load with 95 % confidence.", tolerance)
           : fmt::format("The analytic pull is within {:.3g} % of the load of the grains' with 95 % confidence {}",
                         tolerance, boxes));
+  if (const std::string grains = grains_sentence(result); !grains.empty()) parts.back().second += " " + grains;
   const double beyond = 100 * share_beyond(result);
   parts.emplace_back("Do not trust it",
                      fmt::format("The error exceeds {:.3g} % of the load in {:.0f} % of the range. {}", tolerance,
@@ -237,7 +285,7 @@ std::string in_short(const FailureMapResult& result) {
       "lugs and slip{}.",
       tolerance, 100 * (1 - share_beyond(result)),
       tire.lugs.height > 0.0
-          ? fmt::format(" (they start next to the lugs of {}, {:.3g} mm)", tire.name, 1000 * tire.lugs.height)
+          ? fmt::format(" (they start at those of {}, {:.3g} mm)", tire.name, 1000 * tire.lugs.height)
           : "");
 }
 
@@ -319,7 +367,9 @@ std::string failure_map_page(const FailureMapResult& result, const PageAbout& ab
   Page page("Where may I trust the quick estimate?",
             fmt::format("{}: the analytic wheel against grains, {} on {}", about.title, result.map.scenario.tire.name,
                         in_words(result.map.scenario.soil)));
-  page.sentences({in_short(result)});
+  std::vector<std::string> first = {in_short(result)};
+  if (std::string grains = grains_sentence(result); !grains.empty()) first.push_back(std::move(grains));
+  page.sentences(first);
   page.place("The map", "map");
   page.raw(sliding_map_html(
       sliding_map_of(result),
@@ -344,9 +394,9 @@ std::string failure_map_page(const FailureMapResult& result, const PageAbout& ab
     page.heat_maps(maps, "Loads across, angles up.");
   });
   page.section("What it rests on", "rows");
-  page.table(rows_table(result));
-  page.table(coordinates_table(result));
-  if (!result.checks.empty()) page.table(checks_table(result));
+  page.folded(fmt::format("All {} conditions run", result.rows.rows.size()), [&] { page.table(rows_table(result)); });
+  page.folded("Other coordinates", [&] { page.table(coordinates_table(result)); });
+  if (!result.checks.empty()) page.folded("Checks on fresh conditions", [&] { page.table(checks_table(result)); });
   page.section("How to repeat this", "repeat");
   page.code(about.command);
   page.facts({"part", ""}, {&about.versions});

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "compare/loop/loop_figures.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
+#include "compare/report/bars.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 
@@ -143,6 +145,14 @@ void add_main_figure(Page& page, const LoopAnswer& answer, const std::vector<Cov
   page.choices("Runs at", parts, 0);
 }
 
+/// The candidates that the data do not rule out, by their share.
+Bars candidate_bars(const LoopAnswer& answer) {
+  Bars bars{"Candidates: share [%]", {"share"}, {}, "%"};
+  for (const WeightedSet& set : answer.ambiguity_set)
+    bars.groups.push_back({named_effects(set.ids), {std::round(100 * set.weight)}});
+  return bars;
+}
+
 void add_tables(Page& page, const LoopAnswer& answer) {
   if (answer.validation.overall.cells > 0) {
     page.section("Error before and after", "error");
@@ -155,6 +165,8 @@ void add_tables(Page& page, const LoopAnswer& answer) {
   }
   if (answer.has_candidates()) {
     page.section("Candidates", "candidates");
+    if (answer.ambiguity_set.size() > 1)
+      page.drawing(bars_svg(candidate_bars(answer), {0}), "Share of the evidence of each candidate.");
     page.table(candidates_table(answer));
     page.paragraph(candidates_columns_in_words());
   }

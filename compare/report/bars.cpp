@@ -40,7 +40,7 @@ std::string bars_svg(const Bars& bars, const std::vector<int>& colors_of_sides) 
     const double first = y;
     for (std::size_t s = 0; s < group.values.size(); ++s, y += thick + 2) {
       const double value = group.values[s], from = x(0.0), to = std::isfinite(value) ? x(value) : from;
-      const std::string tip = fmt::format("{}, {}: {} N", group.name, bars.sides[s], number(value));
+      const std::string tip = fmt::format("{}, {}: {} {}", group.name, bars.sides[s], number(value), bars.unit);
       body += fmt::format(R"(<g data-x="{}" data-y="{}" data-value="{}" )", escaped(bars.sides[s]), escaped(group.name),
                           std::isfinite(value) ? fmt::format("{:.6g}", value) : "");
       body += fmt::format(R"(data-tip="{0}" role="img" aria-label="{0}"><title>{0}</title>)", escaped(tip));

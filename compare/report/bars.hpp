@@ -16,6 +16,7 @@ struct Bars {
   std::string title;               ///< what the numbers are, with their unit
   std::vector<std::string> sides;  ///< colours in their order
   std::vector<BarGroup> groups;
+  std::string unit = "N";  ///< said of a bar that is pointed at
 };
 
 /// An <svg> element that scales with the page, its legend in it. `colors_of_sides`: in plot.hpp's named palette.

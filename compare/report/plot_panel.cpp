@@ -77,7 +77,8 @@ class Frame {
     if (plot.identity_line) x.take(y.lower), x.take(y.upper), y.take(x.lower), y.take(x.upper);
     x_ = with_room(x, plot.x, 0.02);
     y_ = with_room(y, plot.y, 0.05);
-    x_ticks = ticks(x_.lower, x_.upper, 6);
+    // Of a single place: points that stand beside each other there would be read at other ticks.
+    x_ticks = x.length() == 0.0 ? std::vector{x.lower} : ticks(x_.lower, x_.upper, 6);
     y_ticks = ticks(y_.lower, y_.upper, 5);
     std::size_t longest = 1;
     for (const double tick : y_ticks) longest = std::max(longest, label(tick, y_ticks).size());
@@ -97,7 +98,8 @@ class Frame {
 
   /// A tick's number with as many places as the step needs, a true minus sign, thousands apart.
   static std::string label(double value, const std::vector<double>& all) {
-    const double step = all.size() > 1 ? all[1] - all[0] : std::max(std::abs(value), 1.0);
+    if (all.size() == 1) return fmt::format("{:.4g}", value);
+    const double step = all[1] - all[0];
     const int places = std::clamp(-static_cast<int>(std::floor(std::log10(step) + 1e-9)), 0, 9);
     const double rounded = std::abs(value) < 1e-9 * step ? 0.0 : value;
     return fmt::format("{:.{}f}", rounded, places);

@@ -266,6 +266,24 @@ std::vector<std::pair<std::string, std::string>> opening(const Reproduction& rep
   return sentences;
 }
 
+std::string conclusion(const Reproduction& reproduction) {
+  std::string text;
+  for (std::size_t k = 0; k < reproduction.labels.size(); ++k) {
+    const auto count = [&](FindingVerdict verdict) {
+      return std::ranges::count_if(reproduction.rows,
+                                   [&](const auto& row) { return row.evidence[k].verdict == verdict; });
+    };
+    const std::string& label = reproduction.labels[k];
+    const std::string name = model_in_words(label),
+                      who = name == label || name.starts_with("grains") ? name : "the " + name;
+    const auto asked = std::ssize(reproduction.rows) - count(FindingVerdict::no_data);
+    text += fmt::format("{}{} {} of {} findings ({} contradicted)", text.empty() ? "" : ", ",
+                        text.empty() ? capital(who) + (name.starts_with("grains") ? " show" : " shows") : who,
+                        count(FindingVerdict::shown), asked, count(FindingVerdict::contradicted));
+  }
+  return text.empty() ? text : text + ".";
+}
+
 Table findings_matrix(const Reproduction& reproduction) {
   MarkedTable table{
       fmt::format("Shown: the whole {:.0f} % interval lies in what is claimed. Contradicted: no part of it does. Open: "
@@ -285,9 +303,7 @@ Table findings_matrix(const Reproduction& reproduction) {
 
 std::string reproduction_page(const Reproduction& reproduction, const PageAbout& about) {
   Page page(about.title, reproduction.findings.source);
-  const auto sentences = opening(reproduction);
-  if (!sentences.empty()) page.describe(sentences.front().first + ": " + sentences.front().second);
-  page.summary(sentences);
+  if (const std::string sentence = conclusion(reproduction); !sentence.empty()) page.sentences({sentence});
   page.section("Findings against models", "matrix");
   page.table(findings_matrix(reproduction));
   page.section("How it is judged", "method");

@@ -19,15 +19,19 @@ std::string tally(const Reproduction& reproduction, std::size_t label);
 /// soilbin-reproduction/1.
 nlohmann::ordered_json to_json(const Reproduction& reproduction);
 
-/// What the page opens with: of each label how many findings it shows, contradicts and leaves open, then the findings
-/// that every model with data contradicts.
+/// "The analytic wheel shows 37 of 48 findings (2 contradicted), grains 20 of 31 findings (1 contradicted).": what the
+/// page opens with.
+std::string conclusion(const Reproduction& reproduction);
+
+/// Of each label how many findings it shows, contradicts and leaves open, then the findings that every model with data
+/// contradicts.
 std::vector<std::pair<std::string, std::string>> opening(const Reproduction& reproduction);
 
 /// Findings against models: shown, contradicted, open, or "-" where a model has no data; each cell leads to the
 /// finding's figure.
 Table findings_matrix(const Reproduction& reproduction);
 
-/// Opening, matrix, doubts; folded each finding with its words, figure and intervals.
+/// Conclusion, matrix, doubts; folded each finding with its words, figure and intervals.
 std::string reproduction_page(const Reproduction& reproduction, const PageAbout& about);
 
 }  // namespace soilbin::compare

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bekker_wong/effect.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/shell_words.hpp"
@@ -60,6 +61,27 @@ std::vector<Peak> peaks(const StudyPart& part, std::size_t model) {
   return drawn;
 }
 
+/// The model that a headline speaks of: of a tire with a declared pressure the first that reads it, else the first.
+std::size_t leading_model(const StudyPart& part) {
+  if (part.question.scenario.tire.inflation_pressure)
+    for (std::size_t m = 0; m < part.study.size(); ++m)
+      if (std::ranges::any_of(part.study[m].choice.effects, [](const EffectChoice& effect) {
+            return bekker_wong::depends_on(bekker_wong::find_form(effect), "inflation_pressure");
+          }))
+        return m;
+  return 0;
+}
+
+/// The curve that a study's sentence and key figure are about: the middle one of those of the leading model that have a
+/// result.
+std::optional<Peak> shown_peak(const StudyPart& part) {
+  if (part.study.empty()) return std::nullopt;
+  std::vector<Peak> solved = peaks(part, leading_model(part));
+  std::erase_if(solved, [](const Peak& peak) { return peak.pull == nullptr; });
+  if (solved.empty()) return std::nullopt;
+  return solved[(solved.size() - 1) / 2];
+}
+
 std::string force(double newton) {
   return std::abs(newton) >= 1000.0 ? fmt::format("{:.3g} kN", newton / 1000) : fmt::format("{:.3g} N", newton);
 }
@@ -93,9 +115,9 @@ std::string largest_pull(const Peak& peak) {
 
 /// What another model of the study says of the same curve.
 std::string other_model(const std::string& label, const Peak& base, const Peak& other) {
-  return fmt::format("{}: {} at {:.3g} % slip; at {:.3g} % slip it sinks {:.0f} mm, and by the first model {:.0f} mm.",
-                     capital(label), force(other.pull->drawbar_pull.value), 100 * other.pull->at.slip,
-                     100 * other.last->at.slip, 1000 * other.last->sinkage.value, 1000 * base.last->sinkage.value);
+  return fmt::format("{}: {} at {:.3g} % slip; sinkage at {:.3g} % slip {:.0f} mm, against {:.0f} mm.", capital(label),
+                     force(other.pull->drawbar_pull.value), 100 * other.pull->at.slip, 100 * other.last->at.slip,
+                     1000 * other.last->sinkage.value, 1000 * base.last->sinkage.value);
 }
 
 std::string percent_to_tenths(double share) { return fmt::format("{:.4g}", std::round(1000 * share) / 10); }
@@ -195,19 +217,60 @@ std::string bands_in_words(const std::vector<Series>& pulls) {
   for (const Series& series : pulls)
     if (!series.error.empty()) ++(series.band ? drawn : kept_back);
   if (drawn + kept_back == 0) return "";
-  std::string text = drawn == 0       ? " So many bands of one standard error would hide each other: none is drawn"
-                     : kept_back == 0 ? " Bands: one standard error"
-                                      : " Bands, of solid curves alone: one standard error";
-  text += "; the efficiency has none.";
-  return text + (kept_back > 0 ? " Point at a name in the legend to see its band." : "");
+  return std::string(drawn > 0 ? " Band: one standard error; the efficiency has none." : "") +
+         (kept_back > 0 ? " Point at a name in the legend to see its band of one standard error." : "");
 }
 
+/// Leaves a panel one band at most, that of its only curve or of the first of several models: two would mix colours.
+void leave_one_band(Sheet& sheet, bool one_curve) {
+  for (Plot& plot : sheet.plots)
+    for (Series& series : plot.series) series.band = one_curve && &series == plot.series.data();
+}
+
+void add_curve_figure(Page& page, const StudyPart& part, const Case& curves, const std::vector<ModelAnswers>& along) {
+  Sheet sheet = study_sheet(curves, along);
+  const bool one_curve = sheet.palette == Palette::named;
+  leave_one_band(sheet, one_curve);
+  page.figure(
+      sheet,
+      fmt::format("{} on {}. Efficiency is drawn where the wheel both drives and pulls.{}{}",
+                  part.question.scenario.tire.name, in_words(part.question.scenario.soil),
+                  part.study.size() > 1 && !one_curve ? fmt::format(" Dashed: {}.", part.study[1].choice.label) : "",
+                  bands_in_words(sheet.plots.front().series)));
+}
+
+/// Of answers those on one curve.
+std::vector<Answer> on_curve(const std::vector<Answer>& answers, const std::string& label) {
+  std::vector<OperatingCondition> conditions;
+  for (const Answer& answer : answers) conditions.push_back(answer.at);
+  const Curves curves = curves_against_slip(conditions, Spread::exact);
+  std::vector<Answer> some;
+  for (std::size_t i = 0; i < answers.size(); ++i)
+    if (curves.labels[curves.curve_of[i]] == label) some.push_back(answers[i]);
+  return some;
+}
+
+/// A curve at a time, the one that the headline speaks of first; all of them last.
 void add_curves(Page& page, const StudyPart& part) {
-  const Sheet sheet = study_sheet(part.curves, part.along_curves);
-  page.figure(sheet, fmt::format("{} on {}. Efficiency is drawn where the wheel both drives and pulls.{}{}",
-                                 part.question.scenario.tire.name, in_words(part.question.scenario.soil),
-                                 part.study.size() > 1 ? fmt::format(" Dashed: {}.", part.study[1].choice.label) : "",
-                                 bands_in_words(sheet.plots.front().series)));
+  const Curves curves = curves_against_slip(part.curves.study.conditions, Spread::exact);
+  if (curves.labels.size() < 2) return add_curve_figure(page, part, part.curves, part.along_curves);
+  std::vector<Choice> parts;
+  for (std::size_t c = 0; c < curves.labels.size(); ++c)
+    parts.push_back({curves.labels[c], [&page, &part, &curves, c] {
+                       Case one = part.curves;
+                       one.study.conditions.clear();
+                       for (std::size_t i = 0; i < curves.curve_of.size(); ++i)
+                         if (curves.curve_of[i] == c) one.study.conditions.push_back(part.curves.study.conditions[i]);
+                       std::vector<ModelAnswers> along = part.along_curves;
+                       for (ModelAnswers& model : along) model.answers = on_curve(model.answers, curves.labels[c]);
+                       add_curve_figure(page, part, one, along);
+                     }});
+  parts.push_back(
+      {"all curves at once", [&page, &part] { add_curve_figure(page, part, part.curves, part.along_curves); }});
+  const std::optional<Peak> shown = shown_peak(part);
+  const auto first = std::ranges::find(curves.labels, shown ? shown->label : "");
+  page.choices(capital(curves.varying), parts,
+               first == curves.labels.end() ? 0 : static_cast<std::size_t>(first - curves.labels.begin()));
 }
 
 /// Which standard deviations the errors come from, declared and assumed; nothing for grains, which have none of these.
@@ -220,7 +283,7 @@ void add_study(Page& page, const StudyPart& part, bool opens) {
   page.section(part.question.study.name);
   if (!part.question.description.empty()) page.paragraph(part.question.description + ".");
   if (opens)
-    page.paragraph("Its curves open this page.");
+    page.paragraph("Its curves are at the top of this page.");
   else
     add_curves(page, part);
   add_origin_of_errors(page, seen_by(part.question.study.models.front(), part.question.scenario));
@@ -261,15 +324,6 @@ void add_provenance(Page& page, const std::vector<StudyPart>& studies, const std
   }
 }
 
-/// The curve that a study's sentence and key figure are about: the middle one of the first model that has a result.
-std::optional<Peak> shown_peak(const StudyPart& part) {
-  if (part.study.empty()) return std::nullopt;
-  std::vector<Peak> solved = peaks(part, 0);
-  std::erase_if(solved, [](const Peak& peak) { return peak.pull == nullptr; });
-  if (solved.empty()) return std::nullopt;
-  return solved[(solved.size() - 1) / 2];
-}
-
 /// What each number at the head of the page is of.
 std::vector<KeyFigure> key_figures(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns) {
   std::vector<KeyFigure> figures;
@@ -298,14 +352,17 @@ std::vector<KeyFigure> key_figures(const std::vector<StudyPart>& studies, const 
 
 std::string in_words(const StudyPart& part) {
   if (part.study.empty()) return "";
-  const std::vector<Peak> base = peaks(part, 0);
+  const std::size_t leading = leading_model(part);
+  const std::vector<Peak> base = peaks(part, leading);
   std::vector<std::size_t> solved;
   for (std::size_t i = 0; i < base.size(); ++i)
     if (base[i].pull != nullptr) solved.push_back(i);
   if (solved.empty()) return "No condition has a solution.";
   const std::size_t shown = solved[(solved.size() - 1) / 2];
   std::string text = largest_pull(base[shown]);
-  for (std::size_t m = 1; m < part.study.size(); ++m) {
+  if (leading > 0) text = capital(part.study[leading].choice.label) + ", at the declared pressure. " + text;
+  for (std::size_t m = 0; m < part.study.size(); ++m) {
+    if (m == leading) continue;
     const std::vector<Peak> other = peaks(part, m);
     if (other[shown].pull != nullptr)
       text.append(" ").append(other_model(part.study[m].choice.label, base[shown], other[shown]));
@@ -360,9 +417,9 @@ std::string analysis_page(const std::vector<StudyPart>& answered, const std::vec
   std::vector<std::pair<std::string, std::string>> summary;
   for (const StudyPart& part : studies) summary.emplace_back(part.question.study.name, in_words(part));
   for (const CampaignPart& part : campaigns) summary.emplace_back(part.campaign.name, in_words(part));
-  if (!studies.empty()) add_curves(page, studies.front());
   page.figures_at_a_glance(key_figures(studies, campaigns));
   page.summary(summary);
+  if (!studies.empty()) add_curves(page, studies.front());
   if (!links.empty()) {
     page.section("More pages");
     page.cards(links);

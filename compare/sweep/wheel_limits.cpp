@@ -214,6 +214,17 @@ std::optional<double> carried_load(const Case& question) {
   }
 }
 
+std::optional<double> steepest_slope(const Case& question) {
+  if (!question.scenario.soil.semi_empirical) return std::nullopt;
+  OperatingCondition at = question.study.conditions.front();
+  at.longitudinal_incline = 0.0;
+  try {
+    return bekker_wong::steepest_slope(wheel_of(question.scenario, question.study.models.front()), at);
+  } catch (const std::exception&) {  // whatever keeps the model from an answer there, its own error says
+    return std::nullopt;
+  }
+}
+
 std::string in_words(const WheelLimits& answer) {
   std::string text = fmt::format("{}, load {:.6g} N\n", answer.model.label, answer.at.load);
   if (!answer.error.empty()) return text + "no solution: " + answer.error + "\n";

@@ -64,6 +64,10 @@ std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vec
 /// the wheel of its first model; nothing where it carries none, or is known by its grains alone.
 std::optional<double> carried_load(const Case& question);
 
+/// The steepest slope [rad] that the wheel of the question's first model climbs under its first condition, at whatever
+/// slip; nothing where there is none or the soil is known by its grains alone.
+std::optional<double> steepest_slope(const Case& question);
+
 /// A table over the slopes and what the steepest one is.
 std::string in_words(const WheelLimits& answer);
 /// A row of soilbin-limits/1.

@@ -86,6 +86,13 @@ TEST(Compare, RefusesWhatIsNoEffectAndWhatIsThereAlready) {
   EXPECT_THAT(soilbin(ask + "--recorded").err, HasSubstr("--recorded asks for them"));
 }
 
+// With values of another soil the first line and the page's title name both.
+TEST(Compare, NamesTheSoilWhoseValuesItTakes) {
+  const std::string ask = "compare paper-straight --load 4kN --slip 20% --no-loop --soil paper-sand-virtual ";
+  EXPECT_THAT(soilbin(ask + "--recorded").out, HasSubstr(" on paper-sand, analytic values of paper-sand-virtual\n"));
+  EXPECT_THAT(soilbin(ask + "--model bekker_wong").out, HasSubstr(" on paper-sand-virtual\n"));
+}
+
 // The same numbers in the page, in Markdown and as CSV; the page loads nothing and tells how to make it again.
 TEST(Compare, WritesThePageMarkdownAndData) {
   const Scratch scratch;
@@ -100,7 +107,12 @@ TEST(Compare, WritesThePageMarkdownAndData) {
     EXPECT_THAT(html, HasSubstr(part));
   for (const char* loads : {"<link", "<img", "src=", "@import"})
     EXPECT_THAT(html.substr(0, html.find("<script")), Not(HasSubstr(loads)));
-  EXPECT_THAT(text_of(folder / "report.md"), AllOf(HasSubstr("!["), HasSubstr("analytic wheel"))) << "drawings, names";
+  const std::string markdown = text_of(folder / "report.md");
+  EXPECT_THAT(markdown, AllOf(HasSubstr("!["), HasSubstr("analytic wheel"))) << "drawings, names";
+  std::size_t tables = 0;  // of a document that pandoc makes of it
+  for (std::size_t at = markdown.find("\n|:--|"); at != std::string::npos; at = markdown.find("\n|:--|", at + 1))
+    ++tables;
+  EXPECT_EQ(tables, 1U);
   EXPECT_EQ(text_of(folder / "differences.csv"), text_of(csv));
   EXPECT_THAT(text_of(csv), StartsWith("side,reference,channel,unit,"));
   EXPECT_THAT(text_of(csv), HasSubstr(",drawbar_pull,N,"));

@@ -41,18 +41,25 @@ TEST(SlowFailureMapCommand, LearnsFromTheStoredRuns) {
   EXPECT_GT(answered, 12);
   EXPECT_THAT(text_of(page), HasSubstr("Cross-validated error of the map"));
   EXPECT_THAT(text_of(page), HasSubstr("the grains are coarse for this wheel"));
+  EXPECT_THAT(text_of(page), HasSubstr("<summary>All 24 conditions run</summary>"));
   EXPECT_THAT(map["warnings"].dump(), HasSubstr("the grains are coarse for this wheel"));
 }
 
 // docs/lab/failure-maps.md on the paper's tire: by load and slip, hardly by slope; and five runs that the map had not
 // seen.
 TEST(SlowFailureMapCommand, TellsWhereThePapersTireParts) {
+  const Scratch scratch;
+  const fs::path page = scratch / "map.html";
   const Outcome r = soilbin(
       "failure-map paper-longitudinal --soil paper-sand-virtual --incline longitudinal --load 2kN..8kN --lug-height "
       "0mm..30mm --angle 0deg..15deg --slip 5%..50% --first 20 --boundary 20 --rounds 2 --check 5 --settling-friction "
       "0 --json "
-      "--stored --store '" SOILBIN_SOURCE_DIR "/cases/failure_maps/paper-longitudinal.json'");
+      "--stored --store '" SOILBIN_SOURCE_DIR "/cases/failure_maps/paper-longitudinal.json' --report '" +
+      page.string() + "'");
   ASSERT_EQ(r.status, 0) << r.err;
+  const std::string html = text_of(page);  // "within 10 %" is of these grains, whose own error stands beside it
+  EXPECT_LT(html.find("own pull is too large by about 1"), html.find("id=\"map\""));
+  EXPECT_THAT(html, HasSubstr("(they start at those of paper-lugged, 11 mm)"));
   const nlohmann::json map = r.json();
   EXPECT_LT(map["cross_validated_error"].get<double>(), 0.03);
   const auto mean = [&](const std::string& name, double from, double to) {

@@ -15,6 +15,7 @@
 namespace soilbin::compare {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -135,6 +136,71 @@ TEST_F(Pair, TwoAnalyticModelsShareTheSoilsDoubt) {
   for (const Clause& clause : summary(comparison))
     said += clause.text.find("no significance test") != std::string::npos ? 1 : 0;
   EXPECT_EQ(said, 1U);
+}
+
+// The flexible wheel is farther from the grains than the rigid one: yet the headline is of the pair with like tires,
+// and the other pair says that its tires differ.
+TEST_F(Pair, AFlexibleTireAgainstRigidGrainsIsSaidAndNeverTheHeadline) {
+  ModelAnswers flexible = base;
+  flexible.choice.effects = {{"tire_flexibility", "", {}}}, flexible.choice.label = "flexible";
+  for (Answer& answer : flexible.answers) answer.result->drawbar_pull.value += 400;
+  const Comparison comparison = compare_sides(question, {base.choice, flexible.choice},
+                                              {side_of(base), side_of(flexible), grain_side(base, {100}, 40.0)});
+  const std::string unlike = "The tires differ";
+  const std::optional<Clause> first = headline(comparison);
+  ASSERT_TRUE(first);
+  EXPECT_THAT(first->text, AllOf(HasSubstr("is 100 N"), Not(HasSubstr(unlike))));
+  std::size_t said = 0;
+  for (const Clause& clause : summary(comparison))
+    said +=
+        clause.text.find("flexible less dem: ") != std::string::npos && clause.text.find(unlike) != std::string::npos;
+  EXPECT_EQ(said, 3U) << "at each of its channels";
+  const Comparison alone =
+      compare_sides(question, {flexible.choice}, {side_of(flexible), grain_side(base, {100}, 40.0)});
+  EXPECT_THAT(headline(alone)->text, HasSubstr(unlike));
+}
+
+// Values of sand at 1600 kg/m^3 speak of a bed of 1590, not of one of 1450.
+TEST_F(Pair, ABedOfAnotherDensityThanTheSoilsValuesIsSaid) {
+  Soil soil = question.scenario.soil;
+  soil.semi_empirical->density = 1600;
+  std::vector<RecordedRun> runs = grain_runs(base, {0}, 1.0);
+  const auto at = [&](double density) {
+    for (RecordedRun& run : runs) run.bed.bulk = density;
+    return bed_density_doubt(soil, runs);
+  };
+  EXPECT_EQ(at(1590), "");
+  EXPECT_THAT(at(1450), HasSubstr("bed is looser (1450 kg/m^3)"));
+  EXPECT_THAT(at(1700), HasSubstr("bed is denser (1700 kg/m^3)"));
+  EXPECT_EQ(at(0), "") << "a record that does not tell it";
+  soil.semi_empirical->density.reset();
+  EXPECT_EQ(at(1450), "");
+}
+
+// One row a condition: the grains' own value, then what the model adds to it, with a star where that is significant.
+TEST_F(Pair, TheMatrixHoldsTheBaselineAndEachChange) {
+  const Table matrix = matrix_table(against({300}, 40.0));
+  ASSERT_EQ(matrix.rows.size(), question.study.conditions.size());
+  ASSERT_EQ(matrix.header.size(), 7U) << "the condition, then two columns for each of three channels";
+  EXPECT_THAT(matrix.header[1], AllOf(HasSubstr("drawbar pull ["), HasSubstr("dem")));
+  EXPECT_THAT(matrix.header[2], HasSubstr("change ["));
+  const bool kilo = matrix.header[1].find("[kN]") != std::string::npos;
+  for (const auto& row : matrix.rows) EXPECT_EQ(row[2].text, kilo ? "-0.3 *" : "-300 *");
+  EXPECT_EQ(matrix.rows[0][4].text, "+0") << "a torque as it was";
+}
+
+// Efficiency ends at 100 %: the axis cuts a band that goes further, and is left alone by one that does not.
+TEST_F(Pair, NoEfficiencyIsDrawnAboveOne) {
+  const auto upper = [&](double error) {
+    Comparison comparison = against({300}, 40.0);
+    for (SidePoint& point : comparison.sides[0].points)
+      point.result->drawbar_pull.std_error = error * point.result->drawbar_pull.value;
+    for (const Plot& plot : curve_sheet(comparison, 0).plots)
+      if (plot.title.starts_with("Tractive efficiency")) return plot.y.upper;
+    throw std::logic_error("no efficiency");
+  };
+  EXPECT_EQ(upper(10.0), 100.0);
+  EXPECT_EQ(upper(0.01), std::nullopt);
 }
 
 TEST_F(Pair, TheTallyIsTheRowsInShort) {

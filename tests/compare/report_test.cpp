@@ -206,6 +206,16 @@ TEST(Svg, ABandEndsWhereItsAxisDoes) {
   EXPECT_LT(lowest({}), 0.0) << "without an end there is room below";
 }
 
+// Points of several sides at one slip stand beside each other: no tick but that slip's, by which they would be misread.
+TEST(Svg, ALonePlaceHasOneTick) {
+  Series a{.label = "a", .x = {20}, .y = {5}, .error = {1}, .mark = Mark::points}, b = a;
+  b.label = "b", b.y = {7};
+  const std::string text = svg(Sheet{"", {Plot{"pull", {"slip [%]"}, {}, {a, b}}}});
+  EXPECT_THAT(text, HasSubstr(">20</text>"));
+  for (const char* other : {">18</text>", ">19</text>", ">21</text>", ">22</text>"})
+    EXPECT_THAT(text, Not(HasSubstr(other)));
+}
+
 // Areas are drawn from their base; as data they say what they add to the pile.
 TEST(Svg, AnAreaIsFilledFromItsBase) {
   Series area = line("part", {3, 5});

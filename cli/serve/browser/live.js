@@ -271,6 +271,7 @@ soilbin.Live = class {
 
   showReadings(readings, beside) {
     const {make, part} = soilbin, text = ({value, unit}) => unit ? `${value} ${unit}` : 'none';
+    const tiles = readings.findIndex(reading => reading.name === 'Contact');
     const tile = (reading, i) => {
       const one = make('div', {}, make('b', {textContent: text(reading)}), make('span', {textContent: reading.name}));
       one.dataset.said = `${reading.name} ${reading.value} ${reading.unit}`;
@@ -278,8 +279,8 @@ soilbin.Live = class {
       if (beside && beside.readings[i]) one.append(make('small', {textContent: `${beside.label}: ${text(beside.readings[i])}`}));
       return one;
     };
-    part('now').replaceChildren(...readings.slice(0, 5).map(tile));
-    part('sentences').replaceChildren(...readings.slice(5).map(r => make('p', {}, make('b', {textContent: `${r.name} `}), r.value)));
+    part('now').replaceChildren(...readings.slice(0, tiles).map(tile));
+    part('sentences').replaceChildren(...readings.slice(tiles).map(r => make('p', {}, make('b', {textContent: `${r.name} `}), r.value)));
   }
 
   draw() {

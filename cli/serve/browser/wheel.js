@@ -17,9 +17,15 @@ soilbin.roundAbove = function (x) {
 
 // `wheel`: an element of `wheels` of /estimate; sizes in SI, angles in radians from the vertical, ahead positive.
 soilbin.drawWheel = function (wheel) {
-  const {svgOf, formatNumber} = soilbin, width = 460, height = 420, r = wheel.radius, tread = r + wheel.lug_height;
+  const {svgOf, formatNumber, formatForce} = soilbin, width = 460, height = 420, r = wheel.radius, tread = r + wheel.lug_height;
   const middle = 0.4 * width, axle = 172, pixels = 146 / tread, tilt = -wheel.incline * 180 / Math.PI;
-  const at = (theta, radius) => [pixels * radius * Math.sin(theta), pixels * radius * Math.cos(theta)];
+  // A tire that gives way is flat where its circle would reach below: there the radius ends at the chord.
+  const chord = r - (wheel.deflection || 0);
+  const flat = (theta, radius) => radius * Math.min(1, chord / (r * Math.max(Math.cos(theta), 1e-9)));
+  const at = (theta, radius) => {
+    const lower = Math.cos(theta) > 0 ? flat(theta, r) - r : 0;
+    return [pixels * (radius + lower) * Math.sin(theta), pixels * (radius + lower) * Math.cos(theta)];
+  };
   const path = points => 'M' + points.map(p => p.map(c => c.toFixed(1)).join(' ')).join('L');
   const most = Math.max(...wheel.normal, 1e-9), top = soilbin.roundAbove(most), long = 0.5 * tread / top;
   const arc = wheel.theta.map(theta => at(theta, r)), far = 2.5 * width;
@@ -45,7 +51,8 @@ soilbin.drawWheel = function (wheel) {
     const [[x1, y1], [x2, y2]] = [at(2 * Math.PI * k / count, r), at(2 * Math.PI * k / count, tread)];
     add('line', {class: 'quiet-line', 'stroke-width': 3, x1: x1.toFixed(1), y1: y1.toFixed(1), x2: x2.toFixed(1), y2: y2.toFixed(1)});
   }
-  add('circle', {class: 'rim', r: (pixels * r).toFixed(1)});
+  const outline = Array.from({length: 181}, (_, i) => at(i * Math.PI / 90, r));
+  add('path', {class: 'rim', d: path(outline) + 'Z'});
   add('circle', {class: 'f c5', r: 3});
   const outer = wheel.theta.map((theta, i) => at(theta, r + long * wheel.normal[i]));
   const inner = wheel.theta.map((theta, i) => at(theta, r - long * wheel.shear[i]));
@@ -74,9 +81,9 @@ soilbin.drawWheel = function (wheel) {
   const unit = 0.62 * pixels * r / wheel.load, pull = Math.max(-2, Math.min(2.4, wheel.drawbar_pull * unit / (pixels * r))) * pixels * r;
   const down = -tilt * Math.PI / 180;  // the load hangs down, however the ground lies
   arrow(0, 0, -Math.sin(down) * unit * wheel.load, Math.cos(down) * unit * wheel.load, 'c5', 2.4);
-  text(-8 - Math.sin(down) * unit * wheel.load, 0.5 * unit * wheel.load, `W = ${formatNumber(wheel.load)} N`, {'text-anchor': 'end'});
+  text(-8 - Math.sin(down) * unit * wheel.load, 0.5 * unit * wheel.load, `W = ${formatForce(wheel.load)}`, {'text-anchor': 'end'});
   arrow(0, 0, pull, 0, 'c2', 2.4);
-  text(Math.max(pull, 0) + 6, -8, `F = ${formatNumber(wheel.drawbar_pull)} N`);
+  text(Math.max(pull, 0) + 6, -8, `F = ${formatForce(wheel.drawbar_pull)}`);
   const turn = Math.sign(wheel.torque), [from, to] = [at(Math.PI - 0.5, 0.72 * r), at(Math.PI + 0.5, 0.72 * r)];
   const [first, last] = turn < 0 ? [from, to] : [to, from];
   add('path', {class: 's c3', fill: 'none', 'stroke-width': 2, d: `M${first.map(c => c.toFixed(1)).join(' ')}A${(0.72 * pixels * r).toFixed(1)} ` +

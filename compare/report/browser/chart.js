@@ -149,8 +149,10 @@ soilbin.Chart = class {
     };
     svg.append('g').attr('class', 'axis lines').attr('transform', `translate(${frame.left},0)`)
       .call(ticked(d3.axisLeft, frame.y, 5).tickSize(frame.left - frame.right));
-    svg.append('g').attr('class', 'axis').attr('transform', `translate(0,${frame.bottom})`)
-      .call(ticked(d3.axisBottom, frame.x, Math.max(3, frame.width / 80)).tickSizeOuter(0));
+    // Of a single place: points that stand beside each other there would be read at other ticks.
+    const below = ticked(d3.axisBottom, frame.x, Math.max(3, frame.width / 80)).tickSizeOuter(0), places = this.places();
+    if (places.length === 1) below.tickValues(places).tickFormat(soilbin.formatNumber);
+    svg.append('g').attr('class', 'axis').attr('transform', `translate(0,${frame.bottom})`).call(below);
     frame.title.forEach((line, i) => svg.append('text').attr('class', 'ink title').attr('x', 4).attr('y', 17 + 15 * i).text(line));
     svg.append('text').attr('class', 'quiet').attr('text-anchor', 'middle').attr('x', (frame.left + frame.right) / 2)
       .attr('y', frame.height - 6).text(plot.x.title);
