@@ -311,10 +311,10 @@ Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFi
       return one.apart.set_aside && one.test == plate.test && one.radius == plate.curve.radius;
     });
   };
-  const auto add = [](Series& points, const PlateCurve& curve, double deepest) {
+  const auto add = [](Series& points, const PlateCurve& curve, double deepest, double highest) {
     const std::size_t every = curve.pressure.size() / 40 + 1;  // more points than these hide each other
     for (std::size_t i = 0; i < curve.pressure.size(); i += every)
-      if (curve.sinkage[i] <= deepest)
+      if (curve.sinkage[i] <= deepest && curve.pressure[i] <= highest)
         points.x.push_back(1e3 * curve.sinkage[i]), points.y.push_back(1e-3 * curve.pressure[i]);
   };
   constexpr double everywhere = std::numeric_limits<double>::infinity();
@@ -328,7 +328,7 @@ Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFi
       points.color = static_cast<int>(k);
       const PlateCurve used =
           within(readings_of(measured.curve, loading_curve(measured.curve).readings), {fit.lowest, fit.highest});
-      add(points, used, everywhere);
+      add(points, used, everywhere, everywhere);
       deepest = std::max(deepest, *std::ranges::max_element(used.sinkage));
       plot.series.push_back(std::move(points));
     }
@@ -348,7 +348,8 @@ Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFi
     for (const PlateReadingsAside& one : fit.aside)
       if (one.test == measured.test && one.radius == measured.curve.radius)
         places.insert(places.end(), one.readings.readings.begin(), one.readings.readings.end());
-    add(aside, is_aside(measured) ? measured.curve : readings_of(measured.curve, places), 1.5 * most);
+    add(aside, is_aside(measured) ? measured.curve : readings_of(measured.curve, places), 1.5 * most,
+        1.5 * fit.highest);
   }
   if (!aside.x.empty()) plot.series.push_back(std::move(aside));
   return {title, {plot}, Palette::named};

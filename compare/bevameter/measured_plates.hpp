@@ -80,7 +80,8 @@ struct MeasuredPlatesFit {
 /// fewer than six readings on its loading curve in the window.
 MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, const PressureWindow& window = {});
 
-/// Pressure over sinkage: every reading that was used, those set aside, and Bekker's form for each plate.
+/// Pressure over sinkage: every reading that was used, those set aside that do not lie far beyond them, and Bekker's
+/// form for each plate.
 Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFit& fit, const std::string& title);
 
 /// The values with the parts of their errors, each plate by itself, what was set aside, and the lines that a campaign
