@@ -41,13 +41,14 @@ double summit(gsl::FunctionRef f, double low, double high) {
 
 }  // namespace
 
-PullPeak largest_pull(const RollingWheel& wheel, const OperatingCondition& at) {
+PullPeak largest_pull(const RollingWheel& wheel, const OperatingCondition& at, double max_slip) {
   const auto f = [&](double slip) { return pull_at(wheel, at, slip); };
   PullPeak best{0.0, nothing};
-  for (double slip = 0.0; slip < 1.0 + 0.5 * slip_step; slip += slip_step)
-    if (const double pull = f(std::min(slip, 1.0)); pull > best.drawbar_pull) best = {std::min(slip, 1.0), pull};
+  for (double slip = 0.0; slip < max_slip + 0.5 * slip_step; slip += slip_step)
+    if (const double pull = f(std::min(slip, max_slip)); pull > best.drawbar_pull)
+      best = {std::min(slip, max_slip), pull};
   if (best.drawbar_pull == nothing) throw NoSolution("at no slip does the soil carry the load");
-  const double top = summit(f, std::max(0.0, best.slip - slip_step), std::min(1.0, best.slip + slip_step));
+  const double top = summit(f, std::max(0.0, best.slip - slip_step), std::min(max_slip, best.slip + slip_step));
   if (const double pull = f(top); pull > best.drawbar_pull) best = {top, pull};
   return best;
 }
@@ -89,12 +90,13 @@ std::optional<double> largest_load(const RollingWheel& wheel, OperatingCondition
   return low;
 }
 
-std::optional<double> steepest_slope(const RollingWheel& wheel, const OperatingCondition& at, double drawbar) {
+std::optional<double> steepest_slope(const RollingWheel& wheel, const OperatingCondition& at, double drawbar,
+                                     double max_slip) {
   constexpr double low = -60 * degree, high = 80 * degree;
   const auto spare = [&](double slope) {
     OperatingCondition there = at;
     there.longitudinal_incline = slope;
-    return (largest_pull(wheel, there).drawbar_pull - drawbar) / at.load;
+    return (largest_pull(wheel, there, max_slip).drawbar_pull - drawbar) / at.load;
   };
   if (spare(low) < 0.0 || spare(high) > 0.0) return {};
   return gsl::bracketed_root(spare, low, high, 1e-9, 1e-10, "the steepest slope");

@@ -18,9 +18,9 @@ struct PullPeak {
   double drawbar_pull = 0.0;  ///< [N], less the slope's share of the load
 };
 
-/// Largest drawbar pull over 0 <= slip <= 1 at an otherwise given condition. Slips without a balance are passed over;
-/// throws NoSolution where there is no other.
-PullPeak largest_pull(const RollingWheel& wheel, const OperatingCondition& at);
+/// Largest drawbar pull over 0 <= slip <= max_slip (up to 1) at an otherwise given condition. Slips without a balance
+/// are passed over; throws NoSolution where there is no other.
+PullPeak largest_pull(const RollingWheel& wheel, const OperatingCondition& at, double max_slip = 1.0);
 
 /// Smallest slip above -0.5 at which the wheel pulls `drawbar` [N] on the slope that `at` gives; one below where it
 /// pulls more at -0.5, as steep downhill. None where it can't, or where it pulls more even when locked.
@@ -30,8 +30,10 @@ std::optional<double> slip_for_pull(const RollingWheel& wheel, const OperatingCo
 /// 1e-4 of it, by bisection; none where it carries no millionth of `beyond`.
 std::optional<double> largest_load(const RollingWheel& wheel, OperatingCondition at, double beyond);
 
-/// Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N]: there its largest pull is just that.
-/// Between -60 and 80 deg; none where it does not even get down the one, or would climb the other.
-std::optional<double> steepest_slope(const RollingWheel& wheel, const OperatingCondition& at, double drawbar = 0.0);
+/// Steepest slope [rad] that the wheel climbs at a slip up to max_slip while it pulls `drawbar` [N]: there its largest
+/// pull is just that. Between -60 and 80 deg; none where it does not even get down the one, or would climb the other.
+/// At a max_slip of 1 that is a theoretical limit: a wheel that slips by 100 % does not travel.
+std::optional<double> steepest_slope(const RollingWheel& wheel, const OperatingCondition& at, double drawbar = 0.0,
+                                     double max_slip = 1.0);
 
 }  // namespace soilbin::bekker_wong

@@ -259,9 +259,15 @@ void RollingWheel::refuse(const Prepared& p, double highest, ContactPatch& patch
   const double load = p.around.normal_load, carried = vertical(p, patch), most = share_of(highest) * load;
   if (!std::isfinite(carried))
     throw NoSolution("the wheel or its load is too large or too small for the model's numbers");
+  const bool crushed = patch.deflection > sinkage_of(patch, p.outline);
   const auto force = [](double newton) {
     return std::abs(newton) < 1e4 ? fmt::format("{:.4g} N", newton) : fmt::format("{:.4g} kN", newton / 1000);
   };
+  if (crushed)
+    throw NoSolution(fmt::format(
+        "the tire is crushed before the soil gives way: with its inflation and carcass pressure it carries at most {} "
+        "of {}. Raise the inflation pressure or lower the load",
+        force(std::max(most, carried)), force(load)));
   throw NoSolution(fmt::format(
       "the wheel would sink deeper than {} of its radius: there the soil carries {} of {}{}", max_sinkage_share,
       force(carried), force(load),

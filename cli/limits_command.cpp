@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/question.hpp"
 #include "cli/text_output.hpp"
@@ -17,13 +18,18 @@ namespace {
 
 struct LimitsOptions {
   bool json = false;
-  std::string csv, plot;
+  std::string csv, plot, max_slip;
 };
+
+double max_slip_of(const LimitsOptions& options) {
+  if (options.max_slip.empty()) return compare::WheelLimits().max_slip;
+  return read_flag("--max-slip", options.max_slip, {"-", {.lower = 0.0, .upper = 1.0}});
+}
 
 int limits(const Question& inputs, const LimitsOptions& options, const Session& session) {
   const Case question = inputs.ask(session.place);
   require_semi_empirical(question, session.place.library);
-  const std::vector<compare::WheelLimits> answers = compare::limits_of(question);
+  const std::vector<compare::WheelLimits> answers = compare::limits_of(question, max_slip_of(options));
   const std::vector<compare::ModelAnswers> at_limits = compare::answers_at_limits(question, answers);
   const std::vector<std::string> doubts = compare::doubts(question, at_limits);
   print_warnings(doubts);
@@ -55,6 +61,10 @@ void add_limits(CLI::App& app, Session& session) {
   const auto options = std::make_shared<LimitsOptions>();
   add_plot(*command, options->plot, "draw the largest pull and the slips against the slope");
   add_file(*command, "--csv", options->csv, "FILE.csv", "save the table");
+  command
+      ->add_option("--max-slip", options->max_slip,
+                   "slip up to which the wheel may climb, beside the theoretical limit (20 %)")
+      ->type_name("%");
   command->add_flag("--json", options->json, "soilbin-limits/1, in SI");
   command->footer(
       "Where a load has no solution, its line gives the reason; the status is 1 where none has one.\n"

@@ -61,15 +61,17 @@ class Reload final : public Effect {
   bool from_surface_;
 };
 
-/// f = 1 + a [1 - exp(-|s|/s1) + q (pass - 1)] from the second pass on: k, c and density grow by it, K shrinks by it.
+/// f = 1 + a [1 - exp(-|s|/s1) + q m], m = [1 - exp(-(pass - 1)/p0)]/[1 - exp(-1/p0)] from the second pass on: k, c and
+/// density grow by it, K shrinks by it. m is 1 on the second pass; that further passes add less and less is ours:
+/// Senatore and Sandu's line q (pass - 1) has no end.
 class SlipHardening final : public Effect {
  public:
-  explicit SlipHardening(const std::vector<double>& p) : amplitude_(p[0]), s1_(p[1]), per_pass_(p[2]) {}
+  explicit SlipHardening(const std::vector<double>& p) : amplitude_(p[0]), s1_(p[1]), per_pass_(p[2]), p0_(p[3]) {}
   void soil(SoilValues& soil, const Surroundings& around) const override {
-    const double before = passes_before(around);
-    if (before == 0.0) return;
+    if (passes_before(around) == 0.0) return;
+    const double passes = compacted(around, p0_) / -std::expm1(-1 / p0_);
     const double worked = -std::expm1(-std::abs(around.motion.slip) / s1_);
-    const double factor = 1 + amplitude_ * (worked + per_pass_ * before);
+    const double factor = 1 + amplitude_ * (worked + per_pass_ * passes);
     scale_stiffness(soil, factor);
     soil.cohesion *= factor;
     soil.density *= factor;
@@ -77,18 +79,20 @@ class SlipHardening final : public Effect {
   }
 
  private:
-  double amplitude_, s1_, per_pass_;
+  double amplitude_, s1_, per_pass_, p0_;
 };
 
-/// Depth under the undisturbed surface z = z_b pass^e; forces as on the first pass.
+/// Depth under the undisturbed surface z = z_b pass^e; forces as on the first pass. A power has no end: passes beyond
+/// the twentieth deepen the rut no more.
 class RutPower final : public Effect {
  public:
   explicit RutPower(const std::vector<double>& p) : exponent_(p[0]) {}
   void sensor(Reading& reading, const Surroundings& around) const override {
-    reading.sinkage *= std::pow(1 + passes_before(around), exponent_);
+    reading.sinkage *= std::pow(std::min(1 + passes_before(around), last_), exponent_);
   }
 
  private:
+  static constexpr double last_ = 20.0;
   double exponent_;
 };
 
@@ -124,16 +128,20 @@ std::vector<EffectForm> multipass_forms() {
       reload("reload_from_surface", true),
       {.id = id,
        .form = "slip_hardening",
-       .equation = "k, c, density times f, K over f, f = 1 + a [1 - exp(-|s|/s1) + q (pass - 1)] for pass > 1",
-       .source = "after Senatore and Sandu 2011, J. Terramechanics 48(4):265 (there the earlier pass's slip)",
+       .equation = "k, c, density times f, K over f, f = 1 + a [1 - exp(-|s|/s1) + q m], m = [1 - exp(-(pass - 1)/p0)]/"
+                   "[1 - exp(-1/p0)] for pass > 1",
+       .source =
+           "after Senatore and Sandu 2011, J. Terramechanics 48(4):265 (there the earlier pass's slip, m = pass - "
+           "1 without end)",
        .parameters = {{"a", "-", 0.3, 0.0, 5.0, "relative growth of the strength by slip in the earlier passes"},
                       {"s1", "-", 0.2, 0.02, 2.0, "slip that does most of it"},
-                      {"q", "-", 0.3, 0.0, 2.0, "further growth a pass, over that by slip"}},
+                      {"q", "-", 0.3, 0.0, 2.0, "further growth by the second pass, over that by slip"},
+                      {"p0", "-", 2.0, 0.2, 20.0, "passes after which most of the further growth is done"}},
        .conditions = {"pass"},
        .make = maker<SlipHardening>()},
       {.id = id,
        .form = "rut_power",
-       .equation = "z = z_b pass^e; forces unchanged",
+       .equation = "z = z_b pass^e, pass held below 20; forces unchanged",
        .source = "after Abebe, Tanaka, Yamazaki 1989, J. Terramechanics 26(2):139 (rut depth over passes, e = 1/a)",
        .parameters = {{"e", "-", 0.3, 0.0, 1.0, "growth of the total rut depth with the pass"}},
        .steady_only = "it changes what a gauge reads, not the wheel",

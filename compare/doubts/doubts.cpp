@@ -99,6 +99,46 @@ std::string too_steep_across(const Scenario& scenario, const Answer& answer, dou
       in_words(at), share, beside, held);
 }
 
+/// Whether the scenario's effects let the tire flatten.
+bool is_flexible(const Scenario& scenario) {
+  return std::ranges::any_of(scenario.effects, [](const EffectChoice& effect) {
+    return depends_on(bekker_wong::find_form(effect), "inflation_pressure");
+  });
+}
+
+/// A tire that flattens until its rim is near the ground.
+std::string too_flat(const Scenario& scenario, const Answer& answer) {
+  constexpr double most = 0.2;  // of the radius, chosen: half of a high section height
+  const double radius = scenario.tire.radius;
+  const double flattened = radius * (1 - std::cos(answer.result->entry_angle)) - answer.result->sinkage.value;
+  if (!is_flexible(scenario) || !(flattened > most * radius)) return "";  // nor of a drive, which has no angles
+  return fmt::format(
+      "the tire deflects by {:.3g} mm at {}, {:.0f} % of its radius: tires bear about 10 %, and {:.0f} % at the most. "
+      "Raise the inflation pressure or lower the load",
+      1000 * flattened, in_words(answer.at), 100 * flattened / radius, 100 * most);
+}
+
+/// A tire that is asked as a rigid wheel and would flatten: what the default form of tire_flexibility makes of it.
+std::string taken_as_rigid(const Scenario& scenario, const Answer& answer) {
+  constexpr double hardly = 0.01;  // of the load
+  const Tire& tire = scenario.tire;
+  if (!tire.inflation_pressure || is_flexible(scenario)) return "";
+  Scenario flexible = scenario;
+  flexible.effects.push_back({"tire_flexibility", "", {}});
+  const bekker_wong::BekkerWong model({.errors = false, .patch = false});
+  const Answer asked = std::isfinite(answer.result->entry_angle) ? answer : ask(model, scenario, answer.at);
+  if (!asked.result) return "";  // of a drive, where it is at no steady state
+  const double rigid = asked.result->drawbar_pull.value, carcass = tire.carcass_pressure.value_or(0.0);
+  const std::string pressure = fmt::format("the tire flattens at {} (inflation {:.4g} kPa, carcass {:.4g} kPa)",
+                                           in_words(answer.at), *tire.inflation_pressure / 1000, carcass / 1000);
+  const Answer flattened = ask(model, flexible, answer.at);
+  if (!flattened.result) return pressure + ", and carries no more there: " + flattened.error;
+  const double pull = flattened.result->drawbar_pull.value;
+  if (std::abs(pull - rigid) < hardly * answer.at.load) return "";
+  return fmt::format("{}: as a rigid wheel it pulls {:.4g} N, with --effect tire_flexibility {:.4g} N", pressure, rigid,
+                     pull);
+}
+
 /// What the analytic wheel answers at one condition.
 void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings& warnings) {
   const std::string at = " at " + in_words(answer.at);
@@ -121,19 +161,8 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings&
   if (modulus > length)
     warnings.push_back(fmt::format("K ({:.3g} mm) is longer than the contact ({:.3g} mm){}: shear hardly develops",
                                    1000 * modulus, 1000 * length, at));
-  if (tire.inflation_pressure) {
-    const double carried = *tire.inflation_pressure + tire.carcass_pressure.value_or(0.0);
-    const double critical = bekker_wong::critical_ground_pressure(bekker_wong::values_of(*scenario.soil.semi_empirical),
-                                                                  tire.radius, tire.width, answer.at.load);
-    const bool flexible = std::ranges::any_of(scenario.effects, [](const EffectChoice& effect) {
-      return depends_on(bekker_wong::find_form(effect), "inflation_pressure");
-    });
-    if (carried < critical && !flexible)
-      warnings.push_back(
-          fmt::format("inflation {:.3g} kPa lies under the critical ground pressure {:.3g} kPa{}: the tire "
-                      "flattens (effect tire_flexibility)",
-                      carried / 1000, critical / 1000, at));
-  }
+  for (std::string words : {too_flat(scenario, answer), taken_as_rigid(scenario, answer)})
+    if (!words.empty()) warnings.push_back(std::move(words));
 }
 
 /// Of each answer, those alike once.

@@ -336,11 +336,32 @@ std::vector<std::string> doubts_of(Case question, const std::vector<ModelAnswers
   return doubts(question, study);
 }
 
+/// A law of shear that goes back as it came, under a pressure that has grown since: the soil gives more than it took.
+std::string gives_back(const std::vector<bekker_wong::DriveSample>& samples) {
+  constexpr double hardly = 1e-3;  // of what the soil takes
+  double most = 0.0, back = 0.0;
+  for (const bekker_wong::DriveSample& sample : samples) {
+    most = std::max(most, sample.energy.shear);
+    back = std::max(back, most - sample.energy.shear);
+  }
+  const double taken = samples.empty() ? 0.0 : samples.back().energy.compaction;
+  if (!(back > hardly * taken)) return "";
+  return fmt::format(
+      "the soil's shear gives back {:.3g} J, {:.2g} % of the work that presses the soil: where the tread slides "
+      "forward again its stress goes back as it came, at the pressure that acts by then. No soil does that: what "
+      "brakes the "
+      "wheel is too little by about this share",
+      back, 100 * back / taken);
+}
+
 }  // namespace
 
 std::vector<std::string> doubts(const AnalyticDrive& part) {
   const ModelChoice wheel{ModelKind::bekker_wong, part.question.drive->effects, ""};
-  return doubts_of(part.question, {answers_of(wheel, *part.question.drive, part.record.samples)});
+  std::vector<std::string> all =
+      doubts_of(part.question, {answers_of(wheel, *part.question.drive, part.record.samples)});
+  if (std::string back = gives_back(part.record.samples); !back.empty()) all.push_back(std::move(back));
+  return all;
 }
 
 std::vector<std::string> doubts(const DriveSides& drive) {

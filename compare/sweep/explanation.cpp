@@ -92,6 +92,10 @@ std::vector<Step> contact_steps(const Facts& f) {
   return steps;
 }
 
+double largest_stress(const Facts& f) {
+  return *std::ranges::max_element(f.wheel.patch.of(&bekker_wong::ContactPatch::sigma));
+}
+
 std::vector<Step> stress_steps(const Facts& f) {
   const SoilValues& s = f.soil;
   const double drop = std::cos(f.theta_m) - std::cos(f.theta_1);
@@ -108,7 +112,12 @@ std::vector<Step> stress_steps(const Facts& f) {
   const std::string a = f.settled() ? "a " : "";
   std::vector<Step> steps = {{"normal stress there", "sigma_m = " + a + "k r^n (cos theta_m - cos theta_1)^n",
                               fmt::format("{}k ({:.4g} m * {:.4g})^{:.4g}", scaled, f.r, drop, s.exponent),
-                              sigma / 1000, "kPa"}};
+                              sigma / 1000, "kPa",
+                              f.wheel.patch.deflection == 0.0
+                                  ? ""
+                                  : fmt::format("of the circle at this angle; the flattened tread presses with {:.4g} "
+                                                "kPa at the most",
+                                                largest_stress(f) / 1000)}};
   const char* along = motion.locked ? " = -r cos(psi) (sin theta_1 - sin theta_m)"
                                     : " = r [(theta_1 - theta_m) - v_x/(r w) (sin theta_1 - sin theta_m)]";
   const char* locked = motion.locked ? "the wheel is locked: only the direction of j counts, shear is saturated" : "";
@@ -225,11 +234,22 @@ std::vector<Step> effect_steps(const Scenario& scenario) {
   return steps;
 }
 
-std::string pressure_remark(const Tire& tire, double critical) {
+/// What inflation and carcass make of the pressure under the rigid wheel; `most`: the largest one of this answer.
+std::string pressure_remark(const Scenario& scenario, double critical, double most) {
+  const Tire& tire = scenario.tire;
   if (!tire.inflation_pressure) return "the wheel is declared rigid";
-  const double carried = *tire.inflation_pressure + tire.carcass_pressure.value_or(0.0);
-  return fmt::format("inflation and carcass give {:.4g} kPa: the tire {}", carried / 1000,
-                     carried > critical ? "rolls as if rigid" : "flattens; consider the effect tire_flexibility");
+  const double carcass = tire.carcass_pressure.value_or(0.0), carried = *tire.inflation_pressure + carcass;
+  const std::string given = fmt::format("inflation {:.4g} kPa and carcass {:.4g} kPa give {:.4g} kPa",
+                                        *tire.inflation_pressure / 1000, carcass / 1000, carried / 1000);
+  const bool flexible = std::ranges::any_of(scenario.effects, [](const EffectChoice& effect) {
+    return depends_on(bekker_wong::find_form(effect), "inflation_pressure");
+  });
+  if (flexible)
+    return fmt::format("of the rigid wheel; {}, and the flexible tire presses with {:.4g} kPa at the most", given,
+                       most / 1000);
+  return fmt::format(
+      "{}: the tire {}", given,
+      carried > std::max(critical, most) ? "rolls as if rigid" : "flattens; add --effect tire_flexibility");
 }
 
 std::vector<Step> closed_forms(const Facts& f, const TractionResult& result) {
@@ -249,7 +269,7 @@ std::vector<Step> closed_forms(const Facts& f, const TractionResult& result) {
        fmt::format("{:.4g} m * k ({:.4g} m)^{:.4g} / {:.4g}", f.b, z0, n + 1, n + 1), rolling, "N",
        fmt::format("the model's compaction resistance is {:.4g} N", -f.wheel.forces.compaction)},
       {"critical ground pressure", "p_gcr = k z_0^n", fmt::format("k ({:.4g} m)^{:.4g}", z0, n), critical / 1000, "kPa",
-       pressure_remark(f.scenario.tire, critical)},
+       pressure_remark(f.scenario, critical, largest_stress(f))},
       {"largest thrust of this soil", "c r b theta_1 + W_n tan phi",
        fmt::format("{:.4g} kPa * {:.4g} m^2 + {:.4g} N tan {:.4g} deg", soil.cohesion / 1000, area, f.normal_load,
                    soil.friction_angle / degree),

@@ -68,7 +68,7 @@ double error_of_root(const Scenario& scenario, const OperatingCondition& at, dou
   return here.result->drawbar_pull.std_error * (above.*x - below.*x) / std::abs(rise);
 }
 
-/// Of the steepest slope, at the slip of the largest pull there.
+/// Of the steepest slope, at the slip of the largest pull there or of the largest that is allowed.
 double error_of_steepest(const Scenario& scenario, const OperatingCondition& at) {
   return error_of_root(scenario, at, &OperatingCondition::longitudinal_incline, at.longitudinal_incline + 1.0);
 }
@@ -76,6 +76,12 @@ double error_of_steepest(const Scenario& scenario, const OperatingCondition& at)
 /// To first order. The largest pull changes with the soil as the pull at its slip does (the envelope theorem).
 void add_errors(const Scenario& scenario, WheelLimits& answer) {
   OperatingCondition at = answer.at;
+  if (answer.steepest_within) {
+    const bekker_wong::RollingWheel wheel = wheel_of(scenario, answer.model);
+    at.longitudinal_incline = *answer.steepest_within;
+    at.slip = bekker_wong::largest_pull(wheel, at, answer.max_slip).slip;
+    answer.within_error = error_of_steepest(scenario, at);
+  }
   for (SlopeRow& row : answer.slopes) {
     at.longitudinal_incline = row.slope, at.slip = row.best.slip;
     if (const Answer best = ask(with_errors(), scenario, at); best.result)
@@ -89,9 +95,19 @@ void add_errors(const Scenario& scenario, WheelLimits& answer) {
   }
 }
 
-WheelLimits limits_at(const Scenario& scenario, const ModelChoice& model, const OperatingCondition& at,
+std::optional<double> steepest_within(const bekker_wong::RollingWheel& wheel, const OperatingCondition& at,
+                                      double max_slip) {
+  try {
+    return bekker_wong::steepest_slope(wheel, at, 0.0, max_slip);
+  } catch (const NoSolution&) {  // at larger slips alone does the soil carry the load
+    return {};
+  }
+}
+
+WheelLimits limits_at(const Scenario& scenario, const ModelChoice& model, const OperatingCondition& at, double max_slip,
                       std::vector<double> (*slopes)(double steepest)) {
-  WheelLimits answer{model, at, {}, 0.0, {}, "", false};
+  WheelLimits answer;
+  answer.model = model, answer.at = at, answer.max_slip = max_slip;
   answer.friction_angle = scenario.soil.semi_empirical->friction_angle.value;
   if (model.model != ModelKind::bekker_wong) throw InputError("limits asks the model bekker_wong alone");
   const bekker_wong::RollingWheel wheel = wheel_of(scenario, model);
@@ -107,6 +123,8 @@ WheelLimits limits_at(const Scenario& scenario, const ModelChoice& model, const 
         row.slip = row.best.slip, row.best.drawbar_pull = 0.0;  // that is what steepest means
       answer.slopes.push_back(row);
     }
+    there.longitudinal_incline = 0.0;
+    answer.steepest_within = steepest_within(wheel, there, max_slip);
     add_errors(seen_by(model, scenario), answer);
   } catch (const NoSolution& error) {
     answer.error = error.what();
@@ -119,7 +137,7 @@ bool same_but_speed(const WheelLimits& a, const WheelLimits& b) {
   OperatingCondition at = b.at;
   at.speed = a.at.speed;
   return a.model.label == b.model.label && alike(a.at, at) && a.error == b.error && a.steepest == b.steepest &&
-         a.slopes == b.slopes;
+         a.steepest_within == b.steepest_within && a.slopes == b.slopes;
 }
 
 /// The conditions of a question, slip left aside, each once.
@@ -159,6 +177,17 @@ std::string steepest_in_words(const Estimate& steepest, double slip) {
                      number({-steepest.value, steepest.std_error}, 1 / degree));
 }
 
+/// The slope that a vehicle climbs in practice, with little slip.
+std::string within_in_words(const WheelLimits& answer) {
+  const std::string slip = fmt::format("{:.3g}", 100 * answer.max_slip);
+  if (!answer.steepest_within) return fmt::format("At up to {} % slip it climbs no slope.\n", slip);
+  const Estimate slope{*answer.steepest_within, answer.within_error};
+  if (slope.value < 0.0)
+    return fmt::format("At up to {} % slip it needs a downhill slope of {} deg.\n", slip,
+                       number({-slope.value, slope.std_error}, 1 / degree));
+  return fmt::format("At up to {} % slip: {} deg.\n", slip, number(slope, 1 / degree));
+}
+
 }  // namespace
 
 std::optional<Estimate> steepest_slope(const Scenario& scenario, OperatingCondition at, double drawbar) {
@@ -173,11 +202,11 @@ std::optional<Estimate> steepest_slope(const Scenario& scenario, OperatingCondit
   return Estimate{*steepest, error_of_steepest(scenario, at)};
 }
 
-std::vector<WheelLimits> limits_of(const Case& question) {
+std::vector<WheelLimits> limits_of(const Case& question, double max_slip) {
   std::vector<WheelLimits> answers;
   for (const ModelChoice& model : question.study.models)
     for (const OperatingCondition& at : without_slip(question.study.conditions)) {
-      WheelLimits answer = limits_at(question.scenario, model, at, slopes_up_to);
+      WheelLimits answer = limits_at(question.scenario, model, at, max_slip, slopes_up_to);
       const auto known =
           std::ranges::find_if(answers, [&](const WheelLimits& other) { return same_but_speed(other, answer); });
       if (known == answers.end())
@@ -244,7 +273,8 @@ std::string in_words(const WheelLimits& answer) {
         "Slopes above the friction angle, {:.3g} deg, may slide by themselves: slope stability is not checked.\n",
         phi / degree);
   if (!answer.steepest) return text + "The steepest slope lies beyond -60 .. 80 deg.\n";
-  return text + steepest_in_words({*answer.steepest, answer.steepest_error}, answer.slopes.back().best.slip) + "\n";
+  text += steepest_in_words({*answer.steepest, answer.steepest_error}, answer.slopes.back().best.slip) + "\n";
+  return text + within_in_words(answer);
 }
 
 Json to_json(const WheelLimits& answer) {
@@ -259,6 +289,9 @@ Json to_json(const WheelLimits& answer) {
   }
   row["steepest_slope"] = or_null(answer.steepest);
   row["std_error"]["steepest_slope"] = finite(answer.steepest_error);
+  row["max_slip"] = answer.max_slip;
+  row["steepest_slope_within_max_slip"] = or_null(answer.steepest_within);
+  row["std_error"]["steepest_slope_within_max_slip"] = finite(answer.within_error);
   row["slopes"] = Json::array();
   for (const SlopeRow& slope : answer.slopes)
     row["slopes"].push_back(
@@ -296,7 +329,8 @@ std::string limits_csv(const std::vector<WheelLimits>& answers, const std::vecto
 Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& limits) {
   std::vector<WheelLimits> answers;
   for (const WheelLimits& one : limits)
-    answers.push_back(one.error.empty() ? limits_at(question.scenario, one.model, one.at, many_slopes_up_to) : one);
+    answers.push_back(
+        one.error.empty() ? limits_at(question.scenario, one.model, one.at, one.max_slip, many_slopes_up_to) : one);
   const Axis slope{"slope [deg]"};
   const bool one_load = std::ranges::all_of(
       answers, [&](const WheelLimits& answer) { return answer.at.load == answers.front().at.load; });

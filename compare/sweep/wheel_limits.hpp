@@ -39,8 +39,11 @@ struct SlopeRow {
 struct WheelLimits {
   ModelChoice model;
   OperatingCondition at;
-  std::optional<double> steepest;  ///< [rad]
-  double steepest_error = 0.0;     ///< its standard error [rad]
+  std::optional<double> steepest;         ///< [rad]
+  double steepest_error = 0.0;            ///< its standard error [rad]
+  double max_slip = 0.2;                  ///< up to which the wheel slips in `steepest_within`
+  std::optional<double> steepest_within;  ///< [rad]; nothing also where there is no balance at such slips
+  double within_error = 0.0;              ///< its standard error [rad]
   std::vector<SlopeRow> slopes;
   std::string error;            ///< why there is no answer; empty where there is one
   bool at_every_speed = false;  ///< of the question's: the same answer
@@ -49,8 +52,9 @@ struct WheelLimits {
 
 /// Of each analytic model at each condition of the question, slip and longitudinal incline left aside; conditions that
 /// differ in nothing else count once, and those that differ in a speed that changes nothing too. With standard errors
-/// to first order, from those of soil and effects. Throws InputError for another model.
-std::vector<WheelLimits> limits_of(const Case& question);
+/// to first order, from those of soil and effects. max_slip, 0 .. 1: of the slope that is climbed with so little slip,
+/// beside the theoretical one, at which the wheel may slip by 100 %. Throws InputError for another model.
+std::vector<WheelLimits> limits_of(const Case& question, double max_slip = 0.2);
 
 /// Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N], with its standard error to first order;
 /// none as of bekker_wong::steepest_slope. The slip and the incline of `at` are not read. Throws InputError for a soil

@@ -93,6 +93,22 @@ TEST(Multipass, SlipHardeningScalesTheSoil) {
   EXPECT_GT(gain(0.4), gain(0.1));
 }
 
+// On the second pass it is the published line; later ones add ever less: m = 1, then [1 - e^(-1)]/[1 - e^(-1/2)]
+// = 1.607, in the end 1/[1 - e^(-1/2)] = 2.541.
+TEST(Multipass, HardeningEnds) {
+  const auto hardened = [](double times) {
+    const double f = 1 + 0.3 * (1 - std::exp(-1.0) + 0.3 * times);
+    SoilValues soil = sand();
+    soil.k_c *= f, soil.k_phi *= f, soil.cohesion *= f, soil.shear_modulus /= f;
+    return roll(soil, {}, pass(1)).drawbar_pull;
+  };
+  const auto at = [](int n) { return with({"multipass", "slip_hardening", {}}, pass(n)).drawbar_pull; };
+  EXPECT_NEAR(at(3), hardened(1.606531), 1e-4);
+  EXPECT_NEAR(at(1000), hardened(2.541494), 1e-4);
+  EXPECT_EQ(with({"multipass", "rut_power", {}}, pass(1000)).sinkage,
+            with({"multipass", "rut_power", {}}, pass(20)).sinkage);
+}
+
 TEST(Multipass, RutPowerDeepensTheRutOnly) {
   const Reading first = base(pass(1)), fourth = with({"multipass", "rut_power", {{"e", 0.5}}}, pass(4));
   EXPECT_DOUBLE_EQ(fourth.sinkage, 2 * first.sinkage);  // 4^0.5

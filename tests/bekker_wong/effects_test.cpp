@@ -323,6 +323,43 @@ TEST(Effects, AnswerWithANumberAtTheCornersOfTheMotion) {
         }
 }
 
+// No form grows without end over passes, slips and loads: after many passes one more changes nothing, and at any slip
+// and load the pull stays within a few times what the weight and the cohesion could give; what drags a locked wheel
+// that has dug itself in may be ten times as much.
+TEST(Effects, EveryFormHasALimit) {
+  for (const EffectForm& form : effect_catalogue()) {
+    if (form.id == "lug_thrust" || form.measurement) continue;  // a rig's friction and drift are the rig's
+    for (const Setting& s : settings())
+      for (const double slip : {-1.0, -0.5, 0.0, 0.2, 0.6, 0.9, 1.0})
+        for (const double load : {0.1, 0.5, 1.0, 1.5}) {
+          OperatingCondition at = condition(s, questions[0]);
+          at.slip = slip, at.load = load * s.load;
+          SCOPED_TRACE(fmt::format("{}, {}, slip {}, {} N", key(form), s.name, slip, at.load));
+          const auto answer = [&](int pass) -> std::optional<Reading> {
+            at.pass = pass;
+            try {
+              return wheel_with(s, form).roll(at).reading;
+            } catch (const NoSolution&) {
+              return {};
+            }
+          };
+          const double most = 3 * (at.load + s.soil.cohesion * s.tire.width * s.tire.radius);
+          for (const int pass : {1, 2, 10, 100, 1000})
+            if (const auto found = answer(pass)) {
+              EXPECT_LT(found->drawbar_pull, most) << pass;
+              EXPECT_GT(found->drawbar_pull, -10 * most) << pass;
+              EXPECT_LT(std::abs(found->torque), most * s.tire.radius) << pass;
+              EXPECT_LT(std::abs(found->sinkage), 3 * s.tire.radius) << pass;
+            }
+          const auto hundred = answer(100), thousand = answer(1000);
+          ASSERT_EQ(hundred.has_value(), thousand.has_value());
+          if (!hundred) continue;
+          EXPECT_NEAR(hundred->drawbar_pull, thousand->drawbar_pull, 1e-6 * at.load);
+          EXPECT_NEAR(hundred->sinkage, thousand->sinkage, 1e-6 * s.tire.radius);
+        }
+  }
+}
+
 // Gravity acts through the soil's weight alone: on the Moon as where the soil is as much lighter. What sets soil in
 // motion asks for its mass.
 TEST(Effects, FeelGravityThroughTheWeightOfTheSoil) {

@@ -383,6 +383,22 @@ TEST(LimitsCommand, AWheelThatSpinsOnTheSpotClimbsNothing) {
   EXPECT_THAT(heavy, AllOf(HasSubstr("Steepest slope "), Not(HasSubstr("no travel"))));
 }
 
+// What a vehicle climbs with little slip stands beside the theoretical limit, and is the slope at which the pull at
+// that slip is nothing.
+TEST(LimitsCommand, TheSlopeAtALargestSlipIsTold) {
+  const std::string wheel = "--soil upland-sandy-loam --radius 300mm --width 200mm --load 800N ";
+  EXPECT_THAT(soilbin("limits " + wheel).out, testing::ContainsRegex("At up to 20 % slip: [0-9.]+ ± [0-9.]+ deg"));
+  const nlohmann::json row = soilbin("limits " + wheel + "--max-slip 10% --json").json()["rows"][0];
+  EXPECT_EQ(row["max_slip"], 0.1);
+  const double slope = row["steepest_slope_within_max_slip"];
+  EXPECT_LT(slope, row["steepest_slope"]);
+  EXPECT_GT(row["std_error"]["steepest_slope_within_max_slip"], 0.0);
+  const nlohmann::json there =
+      soilbin("estimate " + wheel + "--slip 10% --longitudinal-incline " + std::to_string(slope) + "rad --json").json();
+  EXPECT_NEAR(there["rows"][0]["drawbar_pull"].get<double>(), 0.0, 0.01);
+  EXPECT_THAT(soilbin("limits " + wheel + "--max-slip 120%").err, HasSubstr("--max-slip"));
+}
+
 // Of the base model the pull grows up to 100 % slip, where a wheel in soil digs itself in.
 TEST(LimitsCommand, WithoutSlipSinkageTheyAreUpperBounds) {
   constexpr const char* said = "Without slip sinkage the largest pull and the steepest slope are upper bounds.";

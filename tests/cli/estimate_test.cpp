@@ -282,6 +282,45 @@ TEST(Estimate, WhatIsGivenAndChangesNothingIsTold) {
     EXPECT_EQ(soilbin(base + heard).err, "") << heard;
 }
 
+// A crushed tire is no weak soil: 0.3 bar under 34 kN on hard ground, where the rigid wheel sinks 5.7 mm.
+TEST(Estimate, ATireThatCarriesNoMoreIsNoWeakSoil) {
+  const Scratch scratch;
+  const std::string hard =
+      scratch
+          .write("hard.yaml",
+                 "format: soilbin-soil/1\nname: hard\nsemi_empirical: {exponent: 1, k_c: 0 kN/m^2, "
+                 "k_phi: 200000 kN/m^3, cohesion: 10 kPa, friction_angle: 30 deg, shear_modulus: "
+                 "25 mm, stress_angle_c1: 0.4, stress_angle_c2: 0.2}\n")
+          .string();
+  const std::string tire = " --radius 801mm --width 600mm --load 34335N --slip 20% --effect tire_flexibility ";
+  const Outcome crushed = soilbin("estimate --soil '" + hard + "'" + tire + "--inflation-pressure 30kPa");
+  EXPECT_EQ(crushed.status, 1);
+  EXPECT_THAT(crushed.err, AllOf(HasSubstr("the tire is crushed"), HasSubstr("of 34.34 kN"),
+                                 HasSubstr("Raise the inflation pressure"), Not(HasSubstr("the soil carries"))));
+  const Outcome soft = soilbin("estimate --soil upland-sandy-loam" + tire + "--inflation-pressure 40kPa");
+  EXPECT_EQ(soft.status, 0);
+  EXPECT_THAT(soft.err, AllOf(HasSubstr("the tire deflects by "), HasSubstr("% of its radius")));
+  EXPECT_THAT(soilbin("estimate --soil upland-sandy-loam" + tire + "--inflation-pressure 240kPa").err,
+              Not(HasSubstr("the tire deflects by ")));
+}
+
+// A tire asked as a rigid wheel: told where that changes the answer, and with the file's own pressures.
+TEST(Estimate, ATireThatFlattensAndIsAskedAsRigidIsTold) {
+  const Scratch scratch;
+  const auto truck = [&](const std::string& inflation) {
+    return "--radius 670mm --width 430mm --carcass-pressure 20kPa --load 37.5kN --slip 20% --inflation-pressure " +
+           inflation + " ";
+  };
+  const Outcome rigid = soilbin("estimate --soil dry-sand " + truck("300kPa"));
+  EXPECT_THAT(rigid.err,
+              AllOf(HasSubstr("the tire flattens at load 37.5 kN"), HasSubstr("inflation 300 kPa, carcass 20"),
+                    HasSubstr("with --effect tire_flexibility")));
+  EXPECT_THAT(soilbin("estimate --soil dry-sand " + truck("3000kPa")).err, Not(HasSubstr("the tire flattens")));
+  const std::string flexible = soilbin("explain --soil sandy-loam --effect tire_flexibility " + truck("150kPa")).out;
+  EXPECT_THAT(flexible, AllOf(HasSubstr("inflation 150 kPa and carcass 20 kPa give 170 kPa"),
+                              HasSubstr("the flexible tire presses with"), Not(HasSubstr("add --effect"))));
+}
+
 TEST(Estimate, ASoilOfGrainsAloneIsBadInput) {
   const Outcome r = soilbin("estimate --soil nakanishi-sand --radius 110mm --width 100mm --load 80N --slip 20%");
   EXPECT_EQ(r.status, 2);
