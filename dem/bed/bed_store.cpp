@@ -8,6 +8,7 @@
 #include "dem/archive/sealed_file.hpp"
 #include "scenario/checksum.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/file_bytes.hpp"
 #include "scenario/quantity.hpp"
 
 namespace soilbin::dem {
@@ -21,7 +22,7 @@ constexpr const char* recipe_note = "bed_recipe";
 constexpr const char* time_note = "settling_time";
 
 std::optional<SettledBed> read_bed(const std::filesystem::path& file, const BedRecipe& recipe, const WorkOptions& how) {
-  if (!std::filesystem::exists(file)) return std::nullopt;
+  if (!is_there(file)) return std::nullopt;
   try {
     Restart restart = read_restart(file);
     const auto text = restart.notes.find(recipe_note), time = restart.notes.find(time_note);
