@@ -11,6 +11,7 @@
 #include "compare/recorded/run_list.hpp"
 #include "dem/bed/relative_density.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/file_bytes.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -38,10 +39,10 @@ void settle(dem::DemSettings settings, const Scenario& scenario, std::uint64_t p
   const dem::DemModel model(settings);
   const dem::BedRecipe recipe = model.recipe(scenario);
   const fs::path file = dem::BedStore(settings.beds).file(recipe);
-  const bool was_there = fs::exists(file);
+  const bool was_there = is_there(file);
   const auto bed = model.bed(recipe);
   clear_progress_line();
-  if (!fs::exists(file)) throw std::runtime_error(fmt::format("{}: {} can't be kept", file.string(), name));
+  if (!is_there(file)) throw std::runtime_error(fmt::format("{}: {} can't be kept", file.string(), name));
   std::string density;
   if (limits) {
     const double share = dem::relative_density(bed->report.void_ratio, *limits);
@@ -51,8 +52,9 @@ void settle(dem::DemSettings settings, const Scenario& scenario, std::uint64_t p
              was_there ? "is there:" : "settled:", file.string());
 }
 
-int beds(const std::string& study, const SoilBinFlags& flags, const Session& session) {
+int beds(const std::string& study, const SoilBinFlags& flags, const CLI::App& command, const Session& session) {
   const Case question = find_study(session.place, study);
+  check_flags_of_grains(flags, command, question);
   const dem::DemSettings settings = settings_of(flags);
   if (settings.beds.empty())
     throw InputError("there is no folder to keep beds in\n  hint: export SOILBIN_BEDS=FOLDER, one that all jobs see");
@@ -78,7 +80,7 @@ void add_bed(CLI::App& app, Session& session) {
   const auto study = std::make_shared<std::string>();
   const auto flags = std::make_shared<SoilBinFlags>();
   add_value(*command, "study", *study, "STUDY", "a study of the library, or a case file")->required();
-  flags->add_rig_to(*command);
+  flags->add_bed_to(*command);
   flags->add_packings_to(*command);
   flags->add_engine_to(*command);
   flags->add_shard_to(*command);
@@ -88,7 +90,8 @@ void add_bed(CLI::App& app, Session& session) {
       "processes on any number of machines may fill one folder. Stopped, it ends with status 3: the same command goes\n"
       "on.\n"
       "Example: soilbin bed paper-straight --settling-friction dense --packings 3");
-  command->callback([=, &session] { session.action = [=, &session] { return beds(*study, *flags, session); }; });
+  command->callback(
+      [=, &session] { session.action = [=, &session] { return beds(*study, *flags, *command, session); }; });
 }
 
 }  // namespace soilbin::cli

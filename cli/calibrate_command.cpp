@@ -151,9 +151,28 @@ int tell(const CalibrateOptions& asked, const Soil& soil, ContactKind kind, cons
   return outputs.status(calibration.reached ? done : failed);
 }
 
-int calibrate(CalibrateOptions asked, const Session& session) {
+/// Throws InputError for flags that the contact's test, or a table of sets, doesn't read.
+void check_flags(const CalibrateOptions& asked, const CLI::App& command, ContactKind kind) {
+  const auto refuse = [&](std::initializer_list<const char*> flags, const std::string& why) {
+    for (const char* flag : flags)
+      if (command.count(flag) > 0) throw InputError(fmt::format("{} has no effect {}", flag, why));
+  };
+  if (kind == ContactKind::grain_grain) {
+    refuse({"--across"}, "on the shear box\n  hint: it is the tilting board's, --contact tire");
+  } else {
+    const std::string hint = "on the tilting board\n  hint: it is the shear box's, --contact sand";
+    refuse({"--strength", "--stresses"}, hint);
+    if (!asked.decision.given()) refuse({"--settling-friction"}, hint);
+  }
+  if (!asked.beside.empty())
+    refuse({"--design", "--runs", "--near", "--within", "--probability", "--output", "--json", "--show-runs"},
+           "beside --beside, which only runs the sets of a table\n  hint: leave out one of the two");
+}
+
+int calibrate(CalibrateOptions asked, const CLI::App& command, const Session& session) {
   const Soil soil = asked.contact_test.soil_with_grains(session.place);
   const ContactKind kind = asked.contact_test.kind();
+  check_flags(asked, command, kind);
   read_shares(asked);
   const auto shown = std::make_shared<Shown>();
   asked.options.progress = [shown](const compare::CalibrationProgress& progress) { shown->next(progress); };
@@ -212,7 +231,7 @@ void add_calibrate(CLI::App& app, Session& session) {
       "Finished experiments are kept: after Ctrl-C the same command goes on. Exit status 1: targets not reached.\n"
       "Example: soilbin calibrate paper-sand --contact tire --target board_angle=31.47deg --output calibrated.yaml\n"
       "         soilbin calibrate paper-sand --contact tire --target board_angle=31.47deg --decide CAMPAIGN");
-  command->callback([=, &session] { session.action = [=, &session] { return calibrate(*asked, session); }; });
+  command->callback([=, &session] { session.action = [=, &session] { return calibrate(*asked, *command, session); }; });
 }
 
 }  // namespace soilbin::cli

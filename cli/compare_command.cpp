@@ -63,6 +63,15 @@ bool asks_grains(Study study, const CompareOptions& asked) {
   return asks(study, ModelKind::dem);
 }
 
+/// Throws InputError for a flag that would change nothing beside the others.
+void check_flags(const CompareOptions& asked, const CLI::App& command, const Case& question) {
+  check_flags_of_grains(asked.soil_bin, command, question, {.asked = asks_grains(question.study, asked)});
+  if (!asked.title.empty() && asked.report.empty() && asked.markdown.empty())
+    throw InputError("--title is the title of a page\n  hint: --report FILE.html, or --markdown DIR");
+  if (asked.no_loop && command.count("--seed") > 0)
+    throw InputError("--seed is the loop's, and --no-loop leaves it out\n  hint: give one of the two");
+}
+
 void ask_loop(const compare::Comparison& comparison, unsigned seed, compare::ComparisonAbout& about) {
   compare::LoopOptions options;
   options.attribution.seed = seed;
@@ -116,7 +125,7 @@ std::string soil_of_both(const std::string& own, const std::string& values_of, b
   return grains ? fmt::format("{}, analytic values of {}", own, values_of) : values_of;
 }
 
-int compare_models(CompareOptions asked, const Session& session) {
+int compare_models(CompareOptions asked, const CLI::App& command, const Session& session) {
   if (!asked.model.empty()) check_model(asked.model, all_words<ModelKind>());
   if (asked.model == "bekker_wong" && !asked.soil_bin.recorded.empty())
     throw InputError(
@@ -124,7 +133,8 @@ int compare_models(CompareOptions asked, const Session& session) {
   if (!asked.soil_bin.recorded.empty())
     asked.soil_bin.recorded = find_record(session.place, asked.study, asked.soil_bin.recorded);
   Case question = find_case(session.place, asked.study);
-  asked.conditions.pick(question.study, question.scenario.tire);
+  asked.conditions.pick(question);
+  check_flags(asked, command, question);
   compare::ComparisonAbout about;
   std::string values_of;  // the soil that --soil names
   if (!asked.soil.empty()) {
@@ -134,11 +144,15 @@ int compare_models(CompareOptions asked, const Session& session) {
     about.facts.emplace_back("the analytic model's soil values", asked.soil);
   }
   if (!asked.no_loop) compare::check_soil_for_loop(question.scenario.soil);  // refused before anything is run
-  if (!asked.replay.empty()) about.replay = compare::read_replay(asked.replay);
+  if (!asked.replay.empty()) {
+    about.replay = compare::read_replay(asked.replay);
+    if (asked.report.empty()) throw InputError("--replay is shown on the page alone\n  hint: --report FILE.html");
+  }
   const std::vector<ModelChoice> choices = choices_of(question, asked, session);
   std::vector<compare::Side> sides = compare::analytic_sides(question, choices, shown_progress());
   std::vector<compare::RecordedRun> runs;
   if (asks_grains(question.study, asked)) {
+    if (asked.soil_bin.recorded.empty()) tell_grain_doubts(asked.soil_bin, question);
     compare::GrainSideRuns of =
         compare::run_grain_side(question, grains_of(asked.soil_bin), session.place.effects, shown_progress());
     about.facts.insert(about.facts.end(), of.grains.facts.begin(), of.grains.facts.end());
@@ -197,7 +211,8 @@ void add_compare(CLI::App& app, Session& session) {
       "With neither grains nor measurements, the analytic models are set against each other.\n"
       "Example: soilbin compare paper-straight --recorded --report compare.html\n"
       "         soilbin compare paper-straight --effect slip_sinkage --effect slip_sinkage+lug_thrust");
-  command->callback([=, &session] { session.action = [=, &session] { return compare_models(*asked, session); }; });
+  command->callback(
+      [=, &session] { session.action = [=, &session] { return compare_models(*asked, *command, session); }; });
 }
 
 }  // namespace soilbin::cli

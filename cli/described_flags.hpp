@@ -104,10 +104,10 @@ class DescribedFlags {
  private:
   static int read_whole(const std::string& flag, const std::string& text, int lowest) {
     const auto value = read_number(text);
-    constexpr double largest = 1e9;
+    constexpr int largest = 1'000'000'000;
     if (!value || !(*value >= lowest && *value <= largest) || *value != static_cast<int>(*value))
-      throw InputError(flag + ": expected a whole number of at least " + std::to_string(lowest) + ", not '" + text +
-                       "'");
+      throw InputError(
+          fmt::format("{}: expected a whole number from {} to {}, not '{}'", flag, lowest, largest, clipped(text)));
     return static_cast<int>(*value);
   }
   template <class E>

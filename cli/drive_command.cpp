@@ -120,7 +120,8 @@ int drive_with_grains(const DriveOptions& options, const Case& question, const S
   grains.run();
   sides.insert(sides.end(), grains.sides().begin(), grains.sides().end());
   const compare::DriveSides drive = compare::side_by_side(question, std::move(sides), grains.notes());
-  const std::vector<std::string> doubts = compare::doubts(drive);
+  std::vector<std::string> doubts = compare::doubts(drive);
+  for (std::string& doubt : bed_doubts(options.soil_bin, question)) doubts.push_back(std::move(doubt));
   print_warnings(doubts);
   const Outputs outputs = save(options, drive, question.name, doubts, session);
   if (options.json)
@@ -134,12 +135,15 @@ int drive_with_grains(const DriveOptions& options, const Case& question, const S
   return outputs.status(done);
 }
 
-int drive(const DriveOptions& options, const Session& session) {
+int drive(const DriveOptions& options, const CLI::App& command, const Session& session) {
   check_model(options.model, {"bekker_wong", "dem", "both"});
   const Case question = find_case(session.place, options.name);
   if (!question.drive)
     throw InputError(fmt::format("{}: the case has no section 'drive'\n  hint: soilbin run {} answers its study",
                                  options.name, options.name));
+  check_flags_of_grains(
+      options.soil_bin, command, question,
+      {.asked = options.model != "bekker_wong", .hint = "--model dem or both", .read_without_them = {"--threads"}});
   return options.model == "bekker_wong" ? drive_analytically(options, question, session)
                                         : drive_with_grains(options, question, session);
 }
@@ -174,7 +178,7 @@ void add_drive(CLI::App& app, Session& session) {
   command->footer(
       "Examples: soilbin drive rover-climb --report climb.html\n"
       "          soilbin drive drive-in-grains --model both --settling-friction 0 --report sides.html");
-  command->callback([=, &session] { session.action = [=, &session] { return drive(*options, session); }; });
+  command->callback([=, &session] { session.action = [=, &session] { return drive(*options, *command, session); }; });
 }
 
 }  // namespace soilbin::cli

@@ -100,6 +100,7 @@ struct Test {
   const char* name;
   compare::TestReport (*run)(const AskedTest&);
   bool takes_specimens = false, takes_stresses = takes_specimens, takes_plates = false;
+  bool takes_settling = takes_stresses || takes_plates;
 };
 constexpr Test tests[] = {{.name = "direct-shear", .run = direct_shear, .takes_specimens = true},
                           {.name = "tilting-board", .run = tilting_board},
@@ -132,6 +133,7 @@ void check_flags(const ElementTestOptions& options, const Test& asked) {
   only("--packings", options.packings != 1, &Test::takes_specimens);
   only("--inertial", options.inertial != 0, &Test::takes_specimens);
   only("--ledger", options.ledger, &Test::takes_specimens);
+  only("--settling-friction", !options.flags.settling_friction.empty(), &Test::takes_settling);
   only("--plate", !options.plates.diameters.empty(), &Test::takes_plates);
   only("--plate-sinkage", !options.plates.sinkage.empty(), &Test::takes_plates);
 }

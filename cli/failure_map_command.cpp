@@ -12,10 +12,11 @@
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/experiments/failure_map_grains.hpp"
+#include "compare/experiments/run_plan.hpp"
 #include "compare/failure_map/map_report.hpp"
 #include "scenario/atomic_file.hpp"
-#include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 
 namespace soilbin::cli {
@@ -30,7 +31,7 @@ struct FailureMapOptions {
   std::vector<std::string> effects;
   int first = 24, at_boundary = 12, fresh = 0, rounds = 4;
   unsigned seed = 1;
-  bool json = false, rows = false, stored = false;
+  bool json = false, rows = false, stored = false, dry_run = false;
   SoilBinFlags soil_bin;
   BatchFlags batch;
 };
@@ -78,8 +79,39 @@ void print_map(const compare::FailureMapResult& result, bool rows) {
   if (!result.checks.empty()) fmt::print("\n{}", as_text(compare::checks_table(result)));
 }
 
-int failure_map(const FailureMapOptions& asked, const Session& session) {
+/// The experiments that the map would make first, as runs and their cost; more are chosen by their answers.
+int plan(const FailureMapOptions& asked, Case question, const compare::InclineMap& map,
+         const std::vector<compare::AskedExperiment>& experiments) {
+  std::vector<compare::AskedRun> list;
+  std::vector<std::string> lugs;
+  question.scenario.tire.lugs.height = map.factors[compare::map_lug_height].upper;
+  question.study.conditions.clear();
+  for (const compare::AskedExperiment& one : experiments) {
+    list.push_back({compare::condition_at(map, one.values), one.seed, false});
+    question.study.conditions.push_back(list.back().at);
+    lugs.push_back(fmt::format("lugs of {:.3g} mm", 1000 * one.values[compare::map_lug_height]));
+  }
+  if (list.empty()) {
+    fmt::print("nothing is left to make\n");
+    return done;
+  }
+  compare::RunPlan plan = compare::plan_of(question, settings_of(asked.soil_bin), list, {});
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) plan.runs[k].of_tire = lugs[k];
+  question.study.models = {{ModelKind::bekker_wong, map.scenario.effects, ""}, {ModelKind::dem, {}, ""}};
+  std::vector<std::string> doubts = compare::doubts(question);
+  for (std::string& doubt : bed_doubts(asked.soil_bin, question)) doubts.push_back(std::move(doubt));
+  print_warnings(doubts);
+  if (asked.json)
+    print_json(compare::plan_json(plan), doubts);
+  else
+    fmt::print("{}then      more where the models may part (--boundary {}, --rounds {}) or to check (--check {})\n",
+               compare::plan_text(plan), asked.at_boundary, asked.rounds, asked.fresh);
+  return done;
+}
+
+int failure_map(const FailureMapOptions& asked, const CLI::App& command, const Session& session) {
   Case question = find_study(session.place, asked.study);
+  check_flags_of_grains(asked.soil_bin, command, question);
   std::string values_of;  // the soil that --soil names
   if (!asked.soil.empty()) {
     const Soil given = find_soil(asked.soil, session.place.library);
@@ -96,10 +128,10 @@ int failure_map(const FailureMapOptions& asked, const Session& session) {
                                                     {{}, {}, {}, SOILBIN_VERSION, source_state()});
   if (asked.stored) grains.run = {};
   if (asked.batch.answers()) return asked.batch.answer(grains, store);
-  if (asked.batch.asks()) grains = compare::only_asking(std::move(grains));
+  if (asked.batch.asks() || asked.dry_run) grains = compare::only_asking(std::move(grains));
   const compare::MapLearning how{.runs = {.first = asked.first,
                                           .at_boundary = asked.at_boundary,
-                                          .at_once = std::max(1, asked.batch.ask),
+                                          .at_once = std::max(asked.dry_run ? asked.at_boundary : 1, asked.batch.ask),
                                           .seed = asked.seed,
                                           .progress = show_run},
                                  .rounds = asked.rounds,
@@ -112,6 +144,7 @@ int failure_map(const FailureMapOptions& asked, const Session& session) {
     if (std::string& soil = result.map.scenario.soil.name; !values_of.empty() && values_of != soil)
       soil += ", analytic values of " + values_of;
     clear_progress_line();
+    if (asked.dry_run) return plan(asked, question, map, {});
     const compare::PageAbout about{"Failure map: " + name_of(result.map.incline), session.command, versions(),
                                    doubts_of(result, grains, store)};
     print_warnings(about.doubts);
@@ -122,6 +155,8 @@ int failure_map(const FailureMapOptions& asked, const Session& session) {
     else
       print_map(result, asked.rows);
   } catch (const compare::ExperimentsAsked& more) {
+    clear_progress_line();
+    if (asked.dry_run) return plan(asked, question, map, more.experiments);
     return asked.batch.write(grains, more.experiments);
   } catch (const Interrupted&) {
     if (!asked.store.empty())
@@ -169,6 +204,10 @@ void add_failure_map(CLI::App& app, Session& session) {
   command->add_flag("--show-rows", asked->rows, "print every condition run");
   command->add_flag("--json", asked->json, "soilbin-failure-map/1, in SI");
   asked->soil_bin.add_to(*command);
+  command->add_flag("--dry-run", asked->dry_run, "make nothing; list the runs that come next and what they will cost")
+      ->group(grains_heading);
+  for (const char* other : {"--ask", "--batch", "--stored", "--report"})
+    command->get_option("--dry-run")->excludes(other);
   // A map keeps its runs in a store, each in one packing.
   for (const char* other : {"--record", "--recorded", "--packings"}) command->remove_option(command->get_option(other));
   command->footer(
@@ -176,7 +215,8 @@ void add_failure_map(CLI::App& app, Session& session) {
       "2kN..8kN\n"
       "         --lug-height 0mm..30mm --angle 0deg..15deg --slip 5%..50% --store map.json --report map.html --check "
       "5");
-  command->callback([=, &session] { session.action = [=, &session] { return failure_map(*asked, session); }; });
+  command->callback(
+      [=, &session] { session.action = [=, &session] { return failure_map(*asked, *command, session); }; });
 }
 
 }  // namespace soilbin::cli

@@ -1,5 +1,6 @@
 // soilbin: what does this tire do on this soil?
 #include <fmt/core.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -79,6 +80,16 @@ void start_with_short_waits(char** argv) {
   if (!error) ::execv(program.c_str(), argv);  // by its own name, as lists of processes show it
 }
 
+/// Why the program can't work with the stack that the shell leaves it, which a thread gets too; "" where it can. Beyond
+/// the end of a stack the system ends a program without a word.
+std::string too_small_a_stack() {
+  constexpr ::rlim_t needed = 1 << 20;  // twice what a fit on several threads takes
+  ::rlimit stack{};
+  if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur == RLIM_INFINITY || stack.rlim_cur >= needed) return "";
+  return fmt::format("the stack is limited to {} kB, and this needs {} kB\n  hint: ulimit -s 8192",
+                     stack.rlim_cur / 1024, needed / 1024);
+}
+
 int refuse(const std::string& message) {
   fmt::print(stderr, "soilbin: {}\n", message);
   return bad_input;
@@ -141,6 +152,10 @@ int main(int argc, char** argv) {
   using namespace soilbin;
   cli::guard_standard_streams();
   try {
+    if (const std::string why = cli::too_small_a_stack(); !why.empty()) {
+      fmt::print(stderr, "soilbin: {}\n", why);
+      return cli::failed;
+    }
     cli::catch_interrupts();
     const int status = cli::run(argc, argv);
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;

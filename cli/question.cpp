@@ -146,15 +146,33 @@ std::vector<OperatingCondition> ConditionFlags::conditions() const {
   return all;
 }
 
-void ConditionFlags::pick(Study& study, const Tire& tire) const {
-  Study all = study;
+void ConditionFlags::pick(Case& question) const {
+  const Study study = question.study;
+  Study& all = question.study;
   all.conditions.clear(), all.rotations.clear();
   for (const Flags& flags : combinations()) {
-    const Study some = picked(flags, study, tire);
+    const Study some = picked(flags, study, question.scenario.tire);
     all.conditions.insert(all.conditions.end(), some.conditions.begin(), some.conditions.end());
     all.rotations.insert(all.rotations.end(), some.rotations.begin(), some.rotations.end());
   }
-  study = std::move(all);
+  question.on_command_line.merge(given_keys());
+}
+
+std::set<std::string> ConditionFlags::given_keys() const {
+  const std::vector<std::string> keys = flags_.given_keys();
+  return {keys.begin(), keys.end()};
+}
+
+void ErrorFlag::apply(Case& question) const {
+  if (!exact_) return;
+  std::optional<SemiEmpiricalSoil>& soil = question.scenario.soil.semi_empirical;
+  const bool any = soil && std::ranges::any_of(soil_parameters, [&](const SoilParameter& p) {
+                     return has_assumed_sd(*soil, (*soil).*p.value);
+                   });
+  if (any)
+    soil = without_assumed_sd(*soil);
+  else
+    question.on_command_line.insert("no_assumed_sd");
 }
 
 Study ConditionFlags::picked(const Flags& flags, const Study& study, const Tire& tire) {
@@ -272,6 +290,7 @@ Case Question::from_flags(const Workplace& place) const {
   question.scenario.soil = find_soil(soil_, place.library);
   question.study.name = question.name;
   question.study.conditions = condition_.conditions();
+  question.on_command_line = condition_.given_keys();
   question.study.models.push_back({ModelKind::bekker_wong, {}, "bekker_wong"});
   return question;
 }
@@ -284,13 +303,14 @@ Case Question::ask(const Workplace& place) const {
       question.scenario.soil = find_soil(soil_, place.library);
       for (ModelChoice& choice : question.study.models) choice.errors.clear();  // of the soil that was fitted
     }
-    condition_.pick(question.study, question.scenario.tire);
+    condition_.pick(question);
   }
-  errors_.apply(question.scenario.soil);
+  errors_.apply(question);
   soil_values_.apply(question.scenario.soil);
   if (bin_.any_given()) {
     if (!question.scenario.bin) question.scenario.bin.emplace();
     bin_.apply(*question.scenario.bin);
+    question.on_command_line.insert("bin");
     if (!(question.scenario.bin->depth > 0.0 && question.scenario.bin->width > 0.0))
       throw InputError("a bin needs both --bin-depth and --bin-width");
   }

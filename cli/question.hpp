@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -35,9 +36,12 @@ class ConditionFlags {
 
   /// For each combination of the values given, flag by flag: keeps the study's conditions that agree with it; where
   /// none does, sets it in all that are left. A condition that got its speed from a rotation keeps the rotation: its
-  /// speed follows slip, yaw and `tire`, unless the speed itself is given. Conditions that overriding makes equal are
+  /// speed follows slip, yaw and the tire, unless the speed itself is given. Conditions that overriding makes equal are
   /// kept once. Throws InputError that names the flag, or says why there is no such speed.
-  void pick(Study& study, const Tire& tire) const;
+  void pick(Case& question) const;
+
+  /// Of a condition, those that were given.
+  std::set<std::string> given_keys() const;
 
  private:
   using Flags = DescribedFlags<OperatingCondition>;
@@ -54,9 +58,9 @@ class ErrorFlag {
   void add_to(CLI::App& app) {
     app.add_flag("--no-assumed-sd", exact_, "soil values whose standard deviation is only assumed count as exact");
   }
-  void apply(Soil& soil) const {
-    if (exact_ && soil.semi_empirical) soil.semi_empirical = without_assumed_sd(*soil.semi_empirical);
-  }
+  /// Where no standard deviation is only assumed, the question keeps the key "no_assumed_sd" of what was given for
+  /// nothing.
+  void apply(Case& question) const;
 
  private:
   bool exact_ = false;

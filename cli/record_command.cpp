@@ -11,6 +11,7 @@
 #include "compare/recorded/run_list.hpp"
 #include "compare/recorded/step_pair.hpp"
 #include "scenario/atomic_file.hpp"
+#include "scenario/file_bytes.hpp"
 #include "scenario/nearest_word.hpp"
 
 namespace soilbin::cli {
@@ -34,10 +35,33 @@ std::string names_expected(const RecordOptions& asked, const char* names) {
   return fmt::format("record {}: expected {}\n  hint: see soilbin record --help", asked.what, names);
 }
 
+/// Throws InputError for a place where there is anything but a record all of whose runs `whole` holds too: what is
+/// there would be lost.
+void refuse_other_runs(const std::string& out, const compare::Record& whole) {
+  if (!is_there(out)) return;
+  const std::string hint = "name the record to write first: soilbin record merge OUT.json SHARD.json...";
+  compare::Record before;
+  try {
+    before = compare::read_record(out);
+  } catch (const InputError&) {
+    throw InputError({out}, "is there already, is no record, and stays as it is", "", hint);
+  }
+  for (const auto list : {&compare::Record::runs, &compare::Record::half_step})
+    for (const compare::RecordedRun& run : before.*list) {
+      const compare::AskedRun one{run.answer.at, run.packing, list == &compare::Record::half_step};
+      if (compare::find_run(whole, one) == nullptr)
+        throw InputError(
+            {out},
+            fmt::format("holds a run that none of the others does ({}), and stays as it is", compare::in_words(one)),
+            "", hint);
+    }
+}
+
 int merge(const RecordOptions& asked) {
   if (asked.names.size() < 2) throw InputError(names_expected(asked, "OUT.json SHARD.json..."));
   std::vector<std::string> shards(asked.names.begin() + 1, asked.names.end());
   const compare::Record whole = compare::merged(read_all(shards));
+  refuse_other_runs(asked.names.front(), whole);
   write_file_atomically(asked.names.front(), compare::record_text(whole));
   fmt::print("wrote {}: {}{} of {}\n", asked.names.front(), compare::counted(whole.runs.size(), "run"),
              whole.half_step.empty() ? "" : fmt::format(" and {} at half the time step", whole.half_step.size()),
@@ -71,7 +95,19 @@ int missing(const RecordOptions& asked, const Session& session) {
   return left.empty() ? done : unfinished;
 }
 
-int record(const RecordOptions& asked, const Session& session) {
+/// Throws InputError for flags that are about the runs a study asks for.
+void check_flags(const RecordOptions& asked, const CLI::App& command) {
+  if (asked.what == "missing") return;
+  for (const CLI::Option* option : command.get_options())
+    if (!option->get_lnames().empty() && option->count() > 0)
+      throw InputError(
+          fmt::format("--{} is about the runs that are missing\n  hint: leave it out, or soilbin record "
+                      "missing STUDY RECORD.json...",
+                      option->get_lnames().front()));
+}
+
+int record(const RecordOptions& asked, const CLI::App& command, const Session& session) {
+  check_flags(asked, command);
   if (asked.what == "merge") return merge(asked);
   if (asked.what == "show") return show(asked);
   if (asked.what == "missing") return missing(asked, session);
@@ -96,7 +132,7 @@ void add_record(CLI::App& app, Session& session) {
       "answers\n"
       "is an error that names both. missing: status 3 where something is missing.\n"
       "Example: soilbin record merge whole.json shard-*.json");
-  command->callback([=, &session] { session.action = [=, &session] { return record(*asked, session); }; });
+  command->callback([=, &session] { session.action = [=, &session] { return record(*asked, *command, session); }; });
 }
 
 }  // namespace soilbin::cli

@@ -58,6 +58,19 @@ ReportOptions sorted(ReportOptions options, const Workplace& place) {
   return options;
 }
 
+/// Leaves out the grains that a study asks for, which take hours, and says where they are shown. Throws InputError for
+/// a study that asks nothing else.
+void leave_out_grains(Case& question, const std::string& name, const Workplace& place, compare::NamedDoubts& named) {
+  if (!asks(question.study, ModelKind::dem)) return;
+  const bool recorded = is_there(place_of_record(place, name));
+  const std::string instead =
+      fmt::format("soilbin compare {}{} --report FILE.html", name, recorded ? " --recorded" : " --model dem");
+  if (!asks(question.study, ModelKind::bekker_wong))
+    throw InputError(fmt::format("{} asks grains alone, which this page does not run\n  hint: {}", name, instead));
+  compare::keep_models(question.study, ModelKind::bekker_wong);
+  named.add(name, {"the study asks for grains too, which are not on this page; " + instead + " shows them"});
+}
+
 int report(const ReportOptions& asked, const Session& session) {
   const ReportOptions options = sorted(asked, session.place);
   if (options.studies.empty() && options.campaigns.empty())
@@ -70,6 +83,7 @@ int report(const ReportOptions& asked, const Session& session) {
   compare::NamedDoubts named;
   for (const std::string& name : options.studies) {
     compare::StudyPart part{find_study(session.place, name), {}, {}, {}, name};
+    leave_out_grains(part.question, name, session.place, named);
     part.study = compare::run_study(part.question, shown_progress());
     part.curves = compare::with_smooth_curves(part.question, smooth_points);
     part.along_curves = compare::run_study(part.curves, shown_progress());

@@ -78,12 +78,9 @@ void check_flags_of_converge(const RunOptions& options) {
 }
 
 /// Throws InputError for a flag that means nothing beside the others.
-void check_flags(const RunOptions& options, const Case& question) {
+void check_flags(const RunOptions& options, const CLI::App& command, const Case& question) {
   const SoilBinFlags& bin = options.soil_bin;
-  if (options.converge && !asks(question.study, ModelKind::dem))
-    throw InputError("--converge is about runs of grains\n  hint: --model dem");
-  if ((options.dry_run || !bin.shard.empty()) && !asks(question.study, ModelKind::dem))
-    throw InputError("--shard and --dry-run are about runs of grains\n  hint: --model dem");
+  check_flags_of_grains(bin, command, question, {.asked = asks(question.study, ModelKind::dem)});
   if (!bin.shard.empty() && !options.dry_run && bin.record.empty())
     throw InputError("--shard needs a record of its own for what it makes\n  hint: --record FILE.json");
 }
@@ -124,9 +121,16 @@ auto recording(const RunOptions& options, const Work& work) {
   }
 }
 
+/// Of a question that nobody has answered yet, and of the bed that its runs would begin on.
+std::vector<std::string> doubts_before_runs(const RunOptions& options, const Case& question) {
+  std::vector<std::string> doubts = compare::doubts(question);
+  for (std::string& doubt : bed_doubts(options.soil_bin, question)) doubts.push_back(std::move(doubt));
+  return doubts;
+}
+
 /// The study's only condition, again with each numerical choice changed.
 int converge(const RunOptions& options, const Case& question, const Session& session) {
-  print_warnings(compare::doubts(question));
+  print_warnings(doubts_before_runs(options, question));
   const std::string heading =
       fmt::format("{}: {}\n\n", question.study.name, compare::in_words(question.study.conditions.front()));
   if (options.dry_run) {
@@ -153,7 +157,7 @@ int converge(const RunOptions& options, const Case& question, const Session& ses
 int plan(const RunOptions& options, const Case& question) {
   const SoilBinFlags& bin = options.soil_bin;
   const compare::RunPlan plan = compare::plan_of(question, settings_of(bin), bin.runs(question), keeping_of(bin));
-  const std::vector<std::string> doubts = compare::doubts(question);
+  const std::vector<std::string> doubts = doubts_before_runs(options, question);
   print_warnings(doubts);
   if (options.json)
     print_json(compare::plan_json(plan), doubts);
@@ -218,23 +222,23 @@ int answer(const RunOptions& options, const Case& question, const Case& whole,
   return failed;
 }
 
-int run(RunOptions options, const Session& session) {
+int run(RunOptions options, const CLI::App& command, const Session& session) {
   SoilBinFlags& bin = options.soil_bin;
   if (options.converge) check_flags_of_converge(options);
   if (!bin.recorded.empty()) bin.recorded = find_record(session.place, options.study, bin.recorded);
   Case question = find_study(session.place, options.study);
-  options.errors.apply(question.scenario.soil);
+  options.errors.apply(question);
   if (!options.model.empty()) check_model(options.model, all_words<ModelKind>());
   compare::choose_models(question.study, value_named<ModelKind>(options.model), !bin.recorded.empty());
   if (bin.recorded.empty()) require_grains(question, session.place.library);
   if (bin.engine == "lammps") compare::name_lammps(question);
   const Case whole = question;  // a record that is begun holds all conditions
-  options.conditions.pick(question.study, question.scenario.tire);
-  check_flags(options, question);
+  options.conditions.pick(question);
+  check_flags(options, command, question);
   if (options.converge) return converge(options, question, session);
   if (options.dry_run) return plan(options, question);
   const std::optional<dem::StepCriteria> step = compare::step_of(settings_of(bin), question, bin.recorded);
-  if (asks(question.study, ModelKind::dem) && bin.recorded.empty()) tell_grain_doubts(question);
+  if (asks(question.study, ModelKind::dem) && bin.recorded.empty()) tell_grain_doubts(bin, question);
   return bin.shard.empty() ? answer(options, question, whole, step, session)
                            : make_shard(options, question, whole, session);
 }
@@ -277,7 +281,7 @@ void add_run(CLI::App& app, Session& session) {
       "Each condition flag keeps the study's conditions that agree with it; where none does, it overrides them. Where\n"
       "the study gives 'rotation' it stays, and the speed follows.\n"
       "Example: soilbin run paper-straight --load 4kN --plot pull.svg");
-  command->callback([=, &session] { session.action = [=, &session] { return run(*options, session); }; });
+  command->callback([=, &session] { session.action = [=, &session] { return run(*options, *command, session); }; });
 }
 
 }  // namespace soilbin::cli

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -22,7 +23,7 @@ namespace soilbin::cli {
 namespace fs = std::filesystem;
 
 std::filesystem::path folder_of_beds() {
-  if (const char* folder = std::getenv("SOILBIN_BEDS")) return folder;
+  if (const char* folder = std::getenv("SOILBIN_BEDS"); folder && *folder) return folder;
   const fs::path cache = user_cache();
   return cache.empty() ? fs::path() : cache / "beds";
 }
@@ -62,27 +63,29 @@ struct SettingFlag {
   const char *flag, *type, *meaning;
   double& (*of)(dem::DemSettings&);
   Range range = above_zero;
+  bool of_bed = false;  ///< a settled bed hangs on it
   Measure measure() const { return {*type == 'L' ? "m" : *type == 'T' ? "s" : "-", range}; }  // by the type's letter
 };
 
 using R = dem::Rig;
 constexpr SettingFlag measure_flags[] = {
-    {"--bed-length", "LENGTH", "length of the bed; {} m", bed<&dem::BedSize::length>},
-    {"--bed-width", "LENGTH", "width of the bed; {} m", bed<&dem::BedSize::width>},
-    {"--bed-depth", "LENGTH", "depth of the bed; {} m", bed<&dem::BedSize::depth>},
+    {"--bed-length", "LENGTH", "length of the bed; {} m", bed<&dem::BedSize::length>, above_zero, true},
+    {"--bed-width", "LENGTH", "width of the bed; {} m", bed<&dem::BedSize::width>, above_zero, true},
+    {"--bed-depth", "LENGTH", "depth of the bed; {} m", bed<&dem::BedSize::depth>, above_zero, true},
     {"--graded",
      "FACTOR",
      "grains below and beside the track up to so many times larger than the soil's, which stay under the wheel; 1 .. "
      "4; {}: the soil's grains everywhere",
      setting<&dem::DemSettings::graded>,
-     {.lower = 1, .upper = 4}},
+     {.lower = 1, .upper = 4},
+     true},
     {"--behind", "LENGTH", "distance from the axle to the bin's rear end at the start; {} m", rig<&R::behind>},
     {"--ahead", "LENGTH", "distance from the axle to the bin's front end when the run ends; {} m", rig<&R::ahead>},
     {"--travel", "LENGTH", "distance that the axle travels; as far as the bin allows", rig<&R::travel>},
     {"--lowering", "TIME", "time in which the load comes on; {} s", rig<&R::lowering>},
     {"--resting", "TIME", "time under the whole load before the start; {} s", rig<&R::resting>, zero_or_more},
     {"--tilting", "TIME", "time in which gravity turns to an incline; {} s", rig<&R::tilting>},
-    {"--time-step", "TIME", "time step of bed and run; a fifth of the Rayleigh time", rig<&R::dt>},
+    {"--time-step", "TIME", "time step of bed and run; a fifth of the Rayleigh time", rig<&R::dt>, above_zero, true},
     {"--sleep",
      "SHARE",
      "far from the wheel, grains slower than this share of sqrt(g d) are not computed; {}; 0: all are",
@@ -176,12 +179,22 @@ void SoilBinFlags::add_measures_to(CLI::App& command) {
   for (const SettingFlag& one : measure_flags) add(command, one, texts);
 }
 
+void SoilBinFlags::add_bed_to(CLI::App& command) {
+  for (const SettingFlag& one : measure_flags)
+    if (one.of_bed) add(command, one, texts);
+  add_seed_to(command);
+}
+
 void SoilBinFlags::add_rig_to(CLI::App& command) {
   add_measures_to(command);
   add_value(command, wheel_mesh_flag, texts[wheel_mesh_flag], "FILE.stl|obj",
             "the wheel as drawn, a mesh as large as the tire, in place of the one that is made from the tire's "
             "measures; soilbin mesh FILE tells what is in it")
       ->group(grains_heading);
+  add_seed_to(command);
+}
+
+void SoilBinFlags::add_seed_to(CLI::App& command) {
   add_value(command, "--packing", packing, "SEED", "seed of the bed; 1")->group(grains_heading);
   add_value(command, "--settling-friction", texts["--settling-friction"], settling_type,
             "how dense the bed settles: loose (the default), medium, dense, or the share of the friction that acts "
@@ -269,13 +282,46 @@ compare::RunKeeping keeping_of(const SoilBinFlags& flags) {
           flags.shard.empty() ? Writers::several : Writers::one};
 }
 
+namespace {
+
+/// The flags of a command under grains_heading that were given, in its order, but for those named.
+std::vector<std::string> given_flags_of_grains(const CLI::App& command, const std::vector<std::string>& but) {
+  std::vector<std::string> given;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_group() != grains_heading || option->count() == 0) continue;
+    std::string flag = "--" + option->get_lnames().front();
+    if (std::ranges::find(but, flag) == but.end()) given.push_back(std::move(flag));
+  }
+  return given;
+}
+
+[[noreturn]] void refuse_flags(const std::vector<std::string>& given, const std::string& reason,
+                               const std::string& hint) {
+  const bool one = given.size() == 1;
+  throw InputError(fmt::format("{} {} {}\n  hint: {}, or leave {} out", listed(given),
+                               one ? "has no effect" : "have no effect", reason, hint, one ? "it" : "them"));
+}
+
+}  // namespace
+
+void check_flags_of_grains(const SoilBinFlags& flags, const CLI::App& command, const Case& question,
+                           const GrainsAsked& grains) {
+  if (!grains.asked) {
+    const std::vector<std::string> given = given_flags_of_grains(command, grains.read_without_them);
+    if (!given.empty()) refuse_flags(given, "on the analytic model", grains.hint + " runs grains");
+  } else if (!flags.recorded.empty()) {
+    const std::vector<std::string> given = given_flags_of_grains(command, {"--recorded"});
+    if (!given.empty()) refuse_flags(given, "on recorded runs", "run them anew without --recorded");
+  } else if (const std::optional<Bin>& bin = question.scenario.bin) {
+    for (const auto& [flag, measure] : {std::pair{"--bed-width", bin->width}, {"--bed-depth", bin->depth}})
+      if (!flags.text(flag).empty())
+        refuse_flags({flag}, fmt::format("beside the case's bin, whose {:g} m the bed takes", measure),
+                     "change 'bin' of the case");
+  }
+}
+
 compare::StudyGrains grains_of(const SoilBinFlags& flags) {
   compare::StudyGrains grains{settings_of(flags), flags.packings, keeping_of(flags)};
-  for (const auto& [flag, text] : flags.texts)
-    if (!flags.recorded.empty() && !text.empty())
-      throw InputError(fmt::format(
-          "{} changes nothing of runs that are recorded\n  hint: leave it out, or run them anew without --recorded",
-          flag));
   if (!flags.recorded.empty()) grains.recorded = {flags.recorded, read_record_with_notes(flags.recorded)};
   return grains;
 }
@@ -295,12 +341,20 @@ void tell_unsealed(const compare::ExperimentStore& store, const fs::path& file) 
                file.string(), store.unsealed(), store.size());
 }
 
-void tell_grain_doubts(const Case& question) {
+std::vector<std::string> bed_doubts(const SoilBinFlags& flags, const Case& question) {
+  const std::optional<Bin>& bin = question.scenario.bin;
+  const std::string narrow =
+      compare::narrow_bed_doubt(question.scenario.tire, bin ? bin->width : settings_of(flags).size.width);
+  return narrow.empty() ? std::vector<std::string>{} : std::vector{narrow};
+}
+
+void tell_grain_doubts(const SoilBinFlags& flags, const Case& question) {
   const Scenario& scenario = question.scenario;
   if (!scenario.soil.granular) return;
   std::vector<std::string> doubts = compare::grain_value_doubts(*scenario.soil.granular);
   doubts.push_back(compare::soft_grain_doubt(scenario, question.study.conditions, {}));
   doubts.push_back(compare::coarse_grain_doubt(scenario, {}));
+  for (std::string& doubt : bed_doubts(flags, question)) doubts.push_back(std::move(doubt));
   for (const std::string& doubt : doubts)
     if (!doubt.empty()) fmt::print(stderr, "note: {}\n", doubt);
 }

@@ -55,6 +55,8 @@ struct SoilBinFlags {
   void add_to(CLI::App& command);
   /// Lengths, times and numerics of bed and rig alone: for who has flags of his own for the rest.
   void add_measures_to(CLI::App& command);
+  /// What a bed hangs on alone, and threads: for who only settles beds.
+  void add_bed_to(CLI::App& command);
   void add_starting_to(CLI::App& command);
   /// Bed, rig and threads alone: for who keeps no records.
   void add_rig_to(CLI::App& command);
@@ -70,6 +72,10 @@ struct SoilBinFlags {
   /// --shard, --known.
   void add_shard_to(CLI::App& command);
   void add_known_to(CLI::App& command);
+
+ private:
+  /// --packing, --settling-friction, --threads.
+  void add_seed_to(CLI::App& command);
 };
 
 /// Throws InputError that names the flag.
@@ -78,9 +84,25 @@ dem::DemSettings settings_of(const SoilBinFlags& flags);
 /// What the flags have kept of runs, by this program.
 compare::RunKeeping keeping_of(const SoilBinFlags& flags);
 
-/// On standard error, before minutes of grains: that they are coarse for the wheel or too soft, and values that are
-/// hardly meant. Beside the answer stands what coarse ones do to it.
-void tell_grain_doubts(const Case& question);
+/// What is doubtful in the bed that the flags and the case's bin make under its tire.
+std::vector<std::string> bed_doubts(const SoilBinFlags& flags, const Case& question);
+
+/// On standard error, before minutes of grains: that they are coarse for the wheel or too soft, values that are hardly
+/// meant, and bed_doubts. Beside the answer stands what coarse ones do to it.
+void tell_grain_doubts(const SoilBinFlags& flags, const Case& question);
+
+/// Whether a command asks grains; how that is asked for; and the flags under grains_heading that it reads without them.
+struct GrainsAsked {
+  bool asked = true;
+  std::string hint = "--model dem";
+  std::vector<std::string> read_without_them{};
+};
+
+/// Throws InputError for flags of `command` under grains_heading that would change nothing of the answers: all of them
+/// where no grains are asked; beside --recorded those about runs to be made; --bed-width and --bed-depth where the case
+/// declares a bin, whose measures the bed takes.
+void check_flags_of_grains(const SoilBinFlags& flags, const CLI::App& command, const Case& question,
+                           const GrainsAsked& grains = {});
 
 /// Who answers for grains with these flags; reads the record that is to answer (read_record_with_notes).
 compare::StudyGrains grains_of(const SoilBinFlags& flags);

@@ -71,7 +71,7 @@ compare::Jobs jobs_of(const SweepOptions& asked, const Case& question, const CLI
   jobs.beds = fs::absolute(folder_of_beds()).lexically_normal();
   CLI::App bed;
   SoilBinFlags of_bed;
-  of_bed.add_rig_to(bed), of_bed.add_packings_to(bed);
+  of_bed.add_bed_to(bed), of_bed.add_packings_to(bed);
   jobs.known = flags.known;
   jobs.run_words = {asked.study, "--model=dem"}, jobs.bed_words = {asked.study};
   for (std::string& word : typed_again(command, nullptr)) jobs.run_words.push_back(std::move(word));
@@ -81,7 +81,20 @@ compare::Jobs jobs_of(const SweepOptions& asked, const Case& question, const CLI
   return jobs;
 }
 
+/// Throws InputError for flags that the way in which the command is called doesn't read.
+void check_flags(const SweepOptions& asked, const CLI::App& command) {
+  const bool status = asked.study == "status";
+  for (const CLI::Option* option : command.get_options())
+    if (status && option->count() > 0 && !option->get_lnames().empty() && option->get_lnames().front() != "json")
+      throw InputError(
+          fmt::format("--{} has no effect on a status\n  hint: leave it out", option->get_lnames().front()));
+  if (asked.json && !status) throw InputError("--json is for the status\n  hint: soilbin sweep status DIR --json");
+  if (asked.at_once > 0 && asked.on == "slurm")
+    throw InputError("--at-once has no effect on Slurm's jobs, which start as there is room\n  hint: --on local");
+}
+
 int sweep(const SweepOptions& asked, const CLI::App& command, const Session& session) {
+  check_flags(asked, command);
   if (asked.study == "status") {
     if (asked.folder.empty()) throw InputError("sweep status: which?\n  hint: soilbin sweep status sweep-NAME");
     const compare::JobStatus status = compare::job_status(asked.folder);
@@ -92,8 +105,9 @@ int sweep(const SweepOptions& asked, const CLI::App& command, const Session& ses
   if (asked.on.empty())
     throw InputError("sweep: where?\n  hint: --on slurm, or --on local for processes of this machine");
   Case question = find_study(session.place, asked.study);
-  asked.conditions.pick(question.study, question.scenario.tire);
-  print_warnings(compare::doubts(question));
+  asked.conditions.pick(question);
+  check_flags_of_grains(asked.soil_bin, command, question);
+  print_warnings(compare::doubts(question)), print_warnings(bed_doubts(asked.soil_bin, question));
   const compare::Jobs jobs = jobs_of(asked, question, command);
   compare::write_jobs(jobs);
   const fs::path script = jobs.folder / "sweep.sh";
@@ -125,7 +139,9 @@ void add_sweep(CLI::App& app, Session& session) {
             fmt::format("time that a job should take; {:.0f} min on Slurm, {:.0f} min here",
                         compare::usual_seconds(compare::JobsOn::slurm) / 60,
                         compare::usual_seconds(compare::JobsOn::local) / 60));
-  add_value(*command, "--shards", asked->shards, "N", "number of jobs, in place of --at-least")->check(whole_number(1));
+  add_value(*command, "--shards", asked->shards, "N", "number of jobs, in place of --at-least")
+      ->check(whole_number(1))
+      ->excludes("--at-least");
   add_value(*command, "--at-once", asked->at_once, "N", "local: processes side by side; as many as cores")
       ->check(whole_number(1, 1000));
   command->add_flag("--submit", asked->submit, "start it now");

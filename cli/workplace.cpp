@@ -73,8 +73,11 @@ compare::Campaign find_campaign(const Workplace& place, const std::string& name,
 }
 
 fs::path user_cache() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME")) return fs::path(cache) / "soilbin";
-  if (const char* home = std::getenv("HOME"); home && fs::is_directory(home)) return fs::path(home) / ".cache/soilbin";
+  std::error_code unseen;
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && fs::path(cache).is_absolute())
+    return fs::path(cache) / "soilbin";
+  if (const char* home = std::getenv("HOME"); home && fs::is_directory(home, unseen))
+    return fs::path(home) / ".cache/soilbin";
   return {};
 }
 

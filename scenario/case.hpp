@@ -9,6 +9,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -62,6 +63,9 @@ struct Case {
   Scenario scenario;
   Study study;  ///< without conditions where the file has none
   std::optional<Drive> drive;
+  /// Keys that were given on the command line: "speed" and other keys of a condition, "bin". Who gives them there wants
+  /// them to matter, and is told where they don't. A tire and a soil keep theirs in `sources`.
+  std::set<std::string> on_command_line{};
 };
 
 template <class Visitor>

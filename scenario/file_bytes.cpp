@@ -53,6 +53,11 @@ void announce_output(const std::filesystem::path& path, const std::string& flag)
   announced_outputs().push_back({in_full(path), flag});
 }
 
+bool is_there(const std::filesystem::path& path) {
+  std::error_code unseen;
+  return std::filesystem::exists(path, unseen);
+}
+
 std::string read_bytes(const std::filesystem::path& path, std::size_t largest) {
   namespace fs = std::filesystem;
   const SourcePosition where{path.string().substr(0, path.string().find('\n'))};

@@ -11,6 +11,9 @@ namespace soilbin {
 /// Says that this process will write a file, and which flag names it. To be called before anything is read.
 void announce_output(const std::filesystem::path& path, const std::string& flag);
 
+/// Whether there is something of this name; no, too, where nobody could see it: in a folder that can't be searched.
+bool is_there(const std::filesystem::path& path);
+
 /// The bytes of a regular file of at most `largest` of them. Throws InputError for a missing or unreadable file, a
 /// folder, a device, a file that is too large, and one that was announced as an output: what was made of a file would
 /// take its place.

@@ -22,7 +22,8 @@ std::function<void(const std::filesystem::path&)>& while_waiting() {
 }
 
 int opened(const std::filesystem::path& place) {
-  if (std::filesystem::is_directory(place)) return ::open(place.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  std::error_code unseen;
+  if (std::filesystem::is_directory(place, unseen)) return ::open(place.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   return ::open(place.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 

@@ -70,10 +70,16 @@ std::string names_hint(const Library& library) {
   return names.empty() ? "the library is empty" : std::string(Kind<T>::word) + "s: " + listed(names);
 }
 
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
 template <class T>
 T find_by_name(const std::string& name, const Library& library) {
   if (looks_like_path(name)) return read_file<T>(name);
   if (const auto file = library.find(Kind<T>::shelf, name)) return read_file<T>(*file);
+  if (is_file(name)) return read_file<T>(name);
   throw InputError(not_found<T>(name, library) + "\n  hint: " + names_hint<T>(library));
 }
 
@@ -86,13 +92,13 @@ T read_part(const YamlNode& node, const Library& library, const Reading& reading
                                      Kind<T>::word, node.kind_name()));
   const std::string& name = node.scalar;
   if (name.find('\0') != std::string::npos) reading.refuse(node, "a name or path can't hold a zero byte");
+  const fs::path beside = fs::path(reading.source->file).parent_path() / name;
   if (looks_like_path(name)) {
-    const fs::path path = fs::path(reading.source->file).parent_path() / name;
-    std::error_code error;
-    if (!fs::is_regular_file(path, error)) reading.refuse(node, fmt::format("no such {} file", Kind<T>::word));
-    return read_file<T>(path);
+    if (!is_file(beside)) reading.refuse(node, fmt::format("no such {} file", Kind<T>::word));
+    return read_file<T>(beside);
   }
   if (const auto file = library.find(Kind<T>::shelf, name)) return read_file<T>(*file);
+  if (is_file(beside)) return read_file<T>(beside);
   reading.refuse(node, not_found<T>(name, library), names_hint<T>(library));
 }
 

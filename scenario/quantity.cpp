@@ -107,7 +107,9 @@ Unit unit_as_written(std::string_view text, std::string_view rest, const Unit& e
 std::string wrong_dimension(const Unit& written) {
   if (written.text == "-") return "it has no unit";
   if (written.text == "lb") return "'lb' is a mass; a pound-force is written 'lbf'";
-  return fmt::format("'{}' is {}", written.text, dimension_name(written));
+  const std::string name = dimension_name(written);
+  const bool nameless = name.find(written.text) != name.npos;
+  return fmt::format("'{}' is {}", written.text, nameless ? base_unit(written.dimension) + " in base units" : name);
 }
 
 /// Decimal digits d1 d2 ... of |value| and the power of ten of d1, shortest that read back to the same bits.

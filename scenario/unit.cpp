@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "scenario/errors.hpp"
@@ -79,6 +81,13 @@ struct Named {
   std::string_view unit, name, example;
 };
 
+/// Of units that are written with a joule: where a force would give the quantity another name.
+constexpr std::array energy_names = {
+    Named{"J", "an energy", "12 J"},
+    Named{"J/m^2", "an energy per area", "0.1 J/m^2"},
+    Named{"J/m^3", "an energy density", "20 kJ/m^3"},
+};
+
 constexpr std::array names = {
     Named{"-", "a plain number or a percentage", "0.2' or '20 %"},
     Named{"m", "a length", "11 mm"},
@@ -127,11 +136,14 @@ void add(Exponent& to, const Exponent& e, double times) {
   to.per_n += e.per_n * times;
 }
 
+/// What 'lb' is.
+enum class Pound { mass, force };
+
 /// Recursive descent over a unit's text; the depth of brackets is bounded by `deepest`.
 class UnitParser {
  public:
-  UnitParser(std::string_view text, std::optional<double> n, const Dimension* meant)
-      : text_(text), n_(n), meant_(meant) {}
+  UnitParser(std::string_view text, std::optional<double> n, const Dimension* meant, Pound pound = Pound::mass)
+      : text_(text), n_(n), meant_(meant), pound_(pound) {}
 
   Unit parse() {
     product({1.0, 0.0}, 0);
@@ -180,7 +192,7 @@ class UnitParser {
     while (const std::size_t bytes = symbol_bytes()) at_ += bytes;
     const std::string_view name = text_.substr(begin, at_ - begin);
     if (name.empty()) refuse();
-    const Symbol* symbol = find_symbol(name);
+    const Symbol* symbol = find_symbol(pound_ == Pound::force && name == "lb" ? "lbf" : name);
     if (symbol == nullptr) unknown_symbol(name, meant_);
     apply(*symbol, times(exponent(), outer, sign));
   }
@@ -221,17 +233,56 @@ class UnitParser {
     return product;
   }
 
-  /// '^2', '**2', '^-2', '^(n+1)', a superscript two or three, or nothing (1).
+  /// '^2', '**2', '^-2', '^n', '^(n+1)', '^{n+1}', '^-(n+2)', superscripts, or nothing (1).
   Exponent exponent() {
-    if (eat("\u00b2")) return {2.0, 0.0};
-    if (eat("\u00b3")) return {3.0, 0.0};
+    if (const std::string raised = superscripts(); !raised.empty()) {
+      UnitParser inside(raised, n_, meant_);
+      const Exponent found = inside.sum();
+      if (inside.at_ < raised.size()) refuse();
+      return found;
+    }
     if (!eat("^") && !eat("**")) return {1.0, 0.0};
-    if (!eat("(")) return {signed_number(), 0.0};
-    Exponent sum = term();
-    while (at_ < text_.size() && (text_[at_] == '+' || text_[at_] == '-')) add(sum, term(), 1.0);
+    const double sign = eat("-") ? -1.0 : 1.0;
+    if (eat("n")) return {0.0, sign};
+    const char* const close = eat("(") ? ")" : eat("{") ? "}" : nullptr;
+    if (close == nullptr) {
+      if (at_ < text_.size() && text_[at_] == '-') refuse();
+      return {sign * signed_number(), 0.0};
+    }
+    const Exponent found = sum();
+    if (!eat(close)) refuse();
+    return {sign * found.constant, sign * found.per_n};
+  }
+
+  Exponent sum() {
+    Exponent found = term();
+    while (at_ < text_.size() && (text_[at_] == '+' || text_[at_] == '-')) add(found, term(), 1.0);
     blanks();
-    if (!eat(")")) refuse();
-    return sum;
+    return found;
+  }
+
+  /// The superscripts that start here, as they are written on the line.
+  std::string superscripts() {
+    constexpr std::array<std::pair<std::string_view, char>, 13> raised = {{{"\u2070", '0'},
+                                                                           {"\u00b9", '1'},
+                                                                           {"\u00b2", '2'},
+                                                                           {"\u00b3", '3'},
+                                                                           {"\u2074", '4'},
+                                                                           {"\u2075", '5'},
+                                                                           {"\u2076", '6'},
+                                                                           {"\u2077", '7'},
+                                                                           {"\u2078", '8'},
+                                                                           {"\u2079", '9'},
+                                                                           {"\u207a", '+'},
+                                                                           {"\u207b", '-'},
+                                                                           {"\u207f", 'n'}}};
+    std::string text;
+    for (bool found = true; found;) {
+      found = false;
+      for (const auto& [sign, plain] : raised)
+        if (eat(sign)) text += plain, found = true;
+    }
+    return text;
   }
 
   /// One term of a sum: '+2', '-n', '2*n', '2n'; blanks around it are skipped.
@@ -287,6 +338,7 @@ class UnitParser {
   std::string_view text_;
   std::optional<double> n_;
   const Dimension* meant_;
+  Pound pound_;
   std::size_t at_ = 0;
   Dimension dimension_;
   Exponent decimal_;
@@ -302,6 +354,9 @@ bool same_exponent(const Exponent& a, const Exponent& b, std::optional<double> n
 }
 
 const Named* find_name(const Unit& unit) {
+  if (unit.text.find('J') != unit.text.npos)
+    for (const Named& named : energy_names)
+      if (same_dimension(parse_unit(named.unit).dimension, unit.dimension)) return &named;
   for (const Named& named : names)
     if (same_dimension(parse_unit(named.unit).dimension, unit.dimension)) return &named;
   return nullptr;
@@ -323,7 +378,10 @@ Unit parse_unit(std::string_view text, std::optional<double> n, const Dimension*
   constexpr std::size_t longest = 100;
   if (text.size() > longest) throw InputError("a unit of more than 100 characters");
   if (text.empty() || text == "-") return Unit{"-", {}};
-  return UnitParser(text, n, meant).parse();
+  const Unit unit = UnitParser(text, n, meant).parse();
+  if (meant == nullptr || unit.text == "lb" || same_dimension(unit.dimension, *meant, n)) return unit;
+  const Unit with_force = UnitParser(text, n, meant, Pound::force).parse();
+  return same_dimension(with_force.dimension, *meant, n) ? with_force : unit;
 }
 
 bool same_dimension(const Dimension& a, const Dimension& b, std::optional<double> n) {

@@ -33,10 +33,12 @@ struct Unit {
 };
 
 /// Reads a unit: symbols joined by '*', '/', a blank or a middle dot, each with an exponent after '^', brackets
-/// allowed. An exponent is a number or a bracketed expression in n: '(n+1)'. '' and '-' are the plain number 1.
+/// allowed. An exponent is a number, n, superscripts or an expression in n in round or curly brackets: '(n+1)'. '' and
+/// '-' are the plain number 1.
 /// `n` is the soil's exponent; a unit such as 'mm^(n+1)' can't be read without it.
 /// Throws InputError (without a position) for an unknown symbol, with the nearest right one.
-/// `meant`: a dimension whose units a misspelt one is first compared with.
+/// `meant`: a dimension whose units a misspelt one is first compared with; in a compound unit that it leaves no other
+/// reading for, 'lb' is a pound-force: 'lb/in^(n+2)' of a modulus, 'lb/in^2' of a pressure.
 Unit parse_unit(std::string_view text, std::optional<double> n = std::nullopt, const Dimension* meant = nullptr);
 
 /// Same dimension: as expressions in n or, where n is given, at that n.

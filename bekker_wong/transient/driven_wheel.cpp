@@ -316,8 +316,9 @@ Held DrivenWheel::hold() const {
   double share = 0.25;
   while (spare(share * modulus) * pull < 0.0)
     if ((share *= 2) > most)
-      throw NoSolution(fmt::format(
-          "the soil can't hold the wheel at rest: {:.4g} N pull it back, its shear gives {:.4g} N", pull, p.forward));
+      throw NoSolution(
+          fmt::format("the soil can't hold the wheel at rest: {:.4g} N pull it {}, the soil's shear holds {:.4g} N",
+                      std::abs(pull), pull > 0.0 ? "back" : "forward", std::abs(p.forward)));
   const double far = share * modulus;
   const double root = gsl::bracketed_root(spare, std::min(0.0, far), std::max(0.0, far), 1e-12, 1e-10 * std::abs(pull),
                                           "the shear that holds the wheel at rest");

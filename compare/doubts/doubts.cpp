@@ -244,8 +244,12 @@ Warnings doubts_of_declarations(const Case& question) {
   append(words, bekker_wong::presumptions(effects, question.scenario.tire));
   const std::optional<SemiEmpiricalSoil>& soil = question.scenario.soil.semi_empirical;
   const bool asks_wheel = asks(question.study, ModelKind::bekker_wong);
-  if (soil && is_from_command_line(*soil, "gravity") && asks_wheel && !question.drive && !weighs_soil(question))
-    words.push_back("the soil's gravity is ignored: loads are forces, and only effects such as bulldozing weigh soil");
+  const auto is_typed = [&](const char* value) { return soil && is_from_command_line(*soil, value); };
+  if ((is_typed("gravity") || is_typed("density")) && asks_wheel && !question.drive && !weighs_soil(question))
+    for (const char* value : {"gravity", "density"})
+      if (is_typed(value))
+        words.push_back(fmt::format(
+            "the soil's {} is ignored: loads are forces, and only effects such as bulldozing weigh soil", value));
   if (soil && !soil->density && !effects.empty() && weighs_soil(question))
     words.push_back(fmt::format("the soil declares no density: {:g} kg/m^3 is assumed, and the answers depend on it",
                                 presumed_bulk_density));

@@ -44,6 +44,13 @@ inline constexpr double deep_overlap = 0.2;
 std::string soft_grain_doubt(const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
                              const std::vector<ModelAnswers>& study);
 
+/// Of the tire's width, under which a bed's walls are doubted (chosen). At 2 widths they held the soil, at 2.6 the
+/// paper's results were had (docs/lab/grain-size.md).
+inline constexpr double wide_bed = 2.5;
+
+/// One sentence on a bed of this width [m] whose walls are near the tire; "" where they aren't.
+std::string narrow_bed_doubt(const Tire& tire, double bed_width);
+
 /// Of the values by themselves: a density that no grain has, friction of more than any rock's, radii that differ by so
 /// much that runs take very long, cohesion that presses grains into each other by more than deep_overlap; the
 /// directional rolling laws, whose answers depend on the time step, with where they turn into a dashpot.

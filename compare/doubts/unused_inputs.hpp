@@ -10,7 +10,8 @@ namespace soilbin::compare {
 
 /// Something that is declared and changes no digit.
 struct UnusedInput {
-  /// "lugs", "inflation_pressure", "pass", "moisture", "position", "run"; "effect": one without such a value
+  /// A key of a tire, a condition or a bin: "lugs", "lugs.count", "inflation_pressure", "pass", "bin"; "effect": an
+  /// effect without such a value.
   std::string key;
   std::string words;  ///< why
 };

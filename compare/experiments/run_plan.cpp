@@ -16,6 +16,8 @@
 #include "dem/bed/relative_density.hpp"
 #include "dem/rig/wheel_in_bin.hpp"
 #include "dem/rig/wheel_motion.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/file_bytes.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -29,7 +31,7 @@ std::vector<std::uint64_t> without_file(const std::set<std::uint64_t>& packings,
   for (const std::uint64_t packing : packings) {
     settings.packing = packing;
     const fs::path file = dem::BedStore(settings.beds).file(dem::DemModel(settings).recipe(scenario));
-    if (settings.beds.empty() || !fs::exists(file)) missing.push_back(packing);
+    if (settings.beds.empty() || !is_there(file)) missing.push_back(packing);
   }
   return missing;
 }
@@ -138,17 +140,34 @@ double RunPlan::core_hours_left() const {
   return (seconds_left() + static_cast<double>(unsettled.size()) * bed_seconds) * threads / 3600;
 }
 
+namespace {
+
+/// Why the soil bin has no answer at a condition, whatever the grains do; "" where it may have one.
+std::string why_refused(const OperatingCondition& at, const Tire& tire) {
+  try {
+    dem::wheel_motion(at, tire.radius);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
 RunPlan plan_of(const Case& question, const dem::DemSettings& settings, const std::vector<AskedRun>& list,
                 const RunKeeping& keeping) {
   std::vector<fs::path> files = keeping.known;
-  if (fs::exists(keeping.record)) files.push_back(keeping.record);
+  if (is_there(keeping.record)) files.push_back(keeping.record);
   const std::vector<Record> records = read_records(files, inputs_of(settings, question.scenario));
+  dem::DemModel(settings).check(question.scenario);
   const RunCosts costs(question.scenario, settings, records);
   RunPlan plan{.study = question.study.name, .runs = {}};
   std::set<std::uint64_t> packings;
   for (const AskedRun& run : list) {
     packings.insert(run.packing);
-    plan.runs.push_back({run, missing_runs({run}, records).empty(), costs.seconds(run)});
+    PlannedRun planned{run, missing_runs({run}, records).empty(), 0, why_refused(run.at, question.scenario.tire)};
+    if (planned.refused.empty()) planned.seconds = costs.seconds(run);
+    plan.runs.push_back(std::move(planned));
   }
   plan.beds = packings.size(), plan.unsettled = without_file(packings, settings, question.scenario);
   plan.density_limits =
@@ -162,8 +181,11 @@ std::string plan_text(const RunPlan& plan) {
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     const PlannedRun& planned = plan.runs[k];
     table.add({std::to_string(k + 1), std::to_string(planned.run.packing),
-               in_words(planned.run.at) + (planned.run.half_step ? ", half the time step" : ""),
-               planned.recorded ? "recorded" : duration_text(planned.seconds)});
+               in_words(planned.run.at) + (planned.of_tire.empty() ? "" : ", " + planned.of_tire) +
+                   (planned.run.half_step ? ", half the time step" : ""),
+               planned.recorded          ? "recorded"
+               : planned.refused.empty() ? duration_text(planned.seconds)
+                                         : "no answer: " + planned.refused});
   }
   const std::size_t recorded = plan.recorded(), left = plan.runs.size() - recorded;
   std::string text = fmt::format("{}: {} of grains on {}\n\n{}\n", plan.study, counted(plan.runs.size(), "run"),
@@ -190,6 +212,8 @@ Json plan_json(const RunPlan& plan) {
     Json row = to_json(planned.run.at);
     row["packing"] = planned.run.packing, row["half_step"] = planned.run.half_step;
     row["recorded"] = planned.recorded, row["seconds"] = planned.seconds;
+    if (!planned.refused.empty()) row["refused"] = planned.refused;
+    if (!planned.of_tire.empty()) row["tire"] = planned.of_tire;
     runs.push_back(row);
   }
   return {{"format", "soilbin-plan/1"},

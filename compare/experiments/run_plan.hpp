@@ -16,7 +16,9 @@ namespace soilbin::compare {
 struct PlannedRun {
   AskedRun run;
   bool recorded = false;
-  double seconds = 0;  ///< that it will take, as far as one can say
+  double seconds = 0;     ///< that it will take, as far as one can say
+  std::string refused{};  ///< why it will have no answer, where that is known beforehand
+  std::string of_tire{};  ///< "lugs of 12 mm", where runs differ in their tire
 };
 
 struct RunPlan {
@@ -37,7 +39,8 @@ struct RunPlan {
 };
 
 /// The plan of a list of runs (runs_of, shard_of). Reads keeping.known, and keeping.record where it is there. Throws
-/// InputError for a soil without values of grains and for a record of other inputs.
+/// InputError for a soil without values of grains, for a record of other inputs, and for what no run could begin with
+/// (DemModel::check).
 RunPlan plan_of(const Case& question, const dem::DemSettings& settings, const std::vector<AskedRun>& list,
                 const RunKeeping& keeping);
 

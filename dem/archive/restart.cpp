@@ -8,6 +8,7 @@
 #include "dem/archive/restart_checks.hpp"
 #include "dem/archive/restart_layout.hpp"
 #include "dem/archive/sealed_file.hpp"
+#include "scenario/file_bytes.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -270,7 +271,7 @@ Restart read_restart(const fs::path& path) {
   }
 }
 
-bool has_restart(const fs::path& path) { return fs::exists(path) || fs::exists(previous_of(path)); }
+bool has_restart(const fs::path& path) { return is_there(path) || is_there(previous_of(path)); }
 
 void remove_restart(const fs::path& path) {
   if (path.empty()) return;

@@ -14,6 +14,7 @@
 #include "dem/surface/positive.hpp"
 #include "scenario/checksum.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/file_bytes.hpp"
 #include "scenario/quantity.hpp"
 
 namespace soilbin::dem {
@@ -76,8 +77,7 @@ SettledBed bed_in(const std::filesystem::path& file, const BedRecipe& recipe, co
 }
 
 std::optional<SettledBed> read_bed(const std::filesystem::path& file, const BedRecipe& recipe, const WorkOptions& how) {
-  std::error_code none;
-  if (!std::filesystem::exists(file, none)) return std::nullopt;
+  if (!is_there(file)) return std::nullopt;
   try {
     return bed_in(file, recipe, how);
   } catch (const InputError& error) {  // damaged, of another version, or made by somebody else

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "scenario/estimate.hpp"
+#include "scenario/file_bytes.hpp"
 
 namespace soilbin::dem {
 
@@ -24,8 +25,7 @@ DensityLimits density_limits(const GranularSoil& soil, BedStore& store, const Wo
 }
 
 bool has_density_limits(const GranularSoil& soil, const BedStore& store) {
-  return std::ranges::all_of(limit_beds(soil),
-                             [&](const BedRecipe& recipe) { return std::filesystem::exists(store.file(recipe)); });
+  return std::ranges::all_of(limit_beds(soil), [&](const BedRecipe& recipe) { return is_there(store.file(recipe)); });
 }
 
 std::optional<DensityLimits> known_density_limits(const GranularSoil& soil, BedStore& store) {

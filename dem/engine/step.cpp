@@ -140,17 +140,24 @@ double move_bodies(World& world) {
   const double deepest = world.setup.numerics.deepest_overlap;
   std::vector<double> radii(s.next_id);  // by id
   for (std::size_t k = 0; k < s.grains.count(); ++k) radii[s.grains.id[k]] = s.grains.motion[k].radius;
-  for (const Contact& contact : contacts_of(world)) {
-    const bool of_grains = contact.second >= 0;
-    const double radius = of_grains ? std::min(radii[contact.first], radii[contact.second]) : radii[contact.first];
-    if (contact.overlap < 0.99 * deepest * radius) continue;
-    throw OverlapTooDeep(
-        fmt::format("grain {} overlaps {} {} by {:.3g} of the smaller radius, more than {:.3g}, time {:.6g} s"
-                    "\n  hint: stiffer grains, less load or stress, less cohesion, or a softer landing",
-                    contact.first, of_grains ? "grain" : "body", of_grains ? contact.second : -1 - contact.second,
-                    contact.overlap / radius, deepest, s.time));
-  }
-  throw OverlapTooDeep(fmt::format("an overlap deeper than {:.3g} of a radius, time {:.6g} s", deepest, s.time));
+  const std::vector<Contact> contacts = contacts_of(world);
+  const auto share = [&](const Contact& contact) {
+    const double radius =
+        contact.second >= 0 ? std::min(radii[contact.first], radii[contact.second]) : radii[contact.first];
+    return contact.overlap / radius;
+  };
+  const auto worst = std::ranges::max_element(contacts, {}, share);
+  const std::string most = fmt::format("{:.3g}", deepest), hint =
+                                                               "\n  hint: stiffer grains, less load or stress, less "
+                                                               "cohesion, or a softer landing";
+  if (worst == contacts.end() || share(*worst) < 0.99 * deepest)
+    throw OverlapTooDeep(fmt::format("an overlap deeper than {} of a radius, time {:.6g} s{}", most, s.time, hint));
+  const std::string overlap = fmt::format("{:.3g}", share(*worst));
+  const bool of_grains = worst->second >= 0, shown = share(*worst) > deepest && overlap != most;
+  throw OverlapTooDeep(
+      fmt::format("grain {} overlaps {} {} by {} of the smaller radius{}, time {:.6g} s{}", worst->first,
+                  of_grains ? "grain" : "body", of_grains ? worst->second : -1 - worst->second,
+                  shown ? overlap : "more than " + most, shown ? ", more than " + most : "", s.time, hint));
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ What read_marked(const fs::path& file, std::string_view mark, const char* called
 
 }  // namespace
 
-bool is_bed_job(const fs::path& folder) { return fs::exists(bed_job_file(folder)); }
+bool is_bed_job(const fs::path& folder) { return is_there(bed_job_file(folder)); }
 void write_bed_job(const fs::path& folder, const BedRecipe& recipe) {
   write_marked(bed_job_file(folder), bed_job_mark, recipe);
 }

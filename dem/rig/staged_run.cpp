@@ -5,6 +5,7 @@
 #include "dem/rig/lammps_worker.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/file_bytes.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -77,7 +78,7 @@ void forget_run(const fs::path& restart) {
     } catch (const std::runtime_error&) {  // a folder that can't be written to any more: it stays
     }
   };
-  if (const fs::path folder = lammps_folder(restart); fs::exists(folder))
+  if (const fs::path folder = lammps_folder(restart); is_there(folder))
     unless_another_is_at_it(lammps_lock(folder), [&] { fs::remove_all(folder); });
   if (has_restart(restart)) unless_another_is_at_it(lock_of(restart), [&] { remove_restart(restart); });
 }

@@ -186,7 +186,7 @@ TEST(Compare, NamesWhatIsWrong) {
   EXPECT_EQ(soilbin("compare paper-straight --recorded no-such.json").status, 2);
   for (const char* command : {"compare", "run"})
     EXPECT_THAT(soilbin(std::string(command) + " paper-straight --recorded --bed-length 1m").err,
-                HasSubstr("--bed-length changes nothing of runs that are recorded"));
+                HasSubstr("--bed-length has no effect on recorded runs"));
 }
 
 }  // namespace

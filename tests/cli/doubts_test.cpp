@@ -91,6 +91,30 @@ TEST(DoubtsOfCommands, StandOnPages) {
     EXPECT_THAT(text_of(file), AllOf(HasSubstr("Warnings"), HasSubstr("lugs are ignored"))) << file;
 }
 
+// The page holds what the analytic models answer of a study that asks for grains too, and says where those stand.
+TEST(DoubtsOfCommands, AReportLeavesOutTheGrainsOfAStudy) {
+  const Scratch scratch;
+  const std::string study = R"(format: soilbin-case/1
+name: both
+tire: rover-wheel
+soil: paper-sand
+study:
+  models: [dem, bekker_wong]
+  conditions: {load: 65 N, slip: [0 %, 20 %]}
+)";
+  const fs::path file = scratch.write("both.yaml", study), page = scratch / "page.html";
+  const Outcome r = soilbin("report '" + file.string() + "' --output '" + page.string() + "'");
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, AllOf(HasSubstr("the study asks for grains too, which are not on this page"),
+                           HasSubstr("--model dem --report FILE.html shows them")));
+  EXPECT_THAT(text_of(page), HasSubstr("the study asks for grains too"));
+  const fs::path grains =
+      scratch.write("grains.yaml", std::string(study).replace(study.find("[dem, bekker_wong]"), 18, "[dem]"));
+  const Outcome alone = soilbin("report '" + grains.string() + "' --output '" + page.string() + "'");
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_THAT(alone.err, HasSubstr("asks grains alone, which this page does not run"));
+}
+
 // The first line of an answer names the lugs; without an effect that hears of them it says that they are left out.
 TEST(DoubtsOfCommands, TheFirstLineSaysThatLugsAreLeftOut) {
   const std::string lugged =

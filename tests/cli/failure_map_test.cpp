@@ -79,6 +79,26 @@ TEST(SlowFailureMapCommand, TellsWhereThePapersTireParts) {
   }
 }
 
+TEST(FailureMapCommand, ADryRunListsTheRunsThatComeNext) {
+  const Scratch scratch;
+  const std::string map =
+      "failure-map paper-longitudinal --soil paper-sand-virtual --load 2kN..8kN --lug-height 0mm..30mm --angle "
+      "0deg..15deg --slip 5%..50% --first 6 --dry-run --store '" +
+      (scratch / "store.json").string() + "' ";
+  const Outcome r = soilbin(map + "--json");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const nlohmann::json plan = r.json();
+  EXPECT_EQ(plan["format"], "soilbin-plan/1");
+  ASSERT_EQ(plan["runs"].size(), 6U);
+  EXPECT_EQ(plan["recorded"], 0);
+  EXPECT_THAT(plan["runs"].at(0)["tire"].get<std::string>(), HasSubstr("lugs of "));
+  EXPECT_GT(plan["core_hours_left"].get<double>(), 0.0);
+  EXPECT_FALSE(fs::exists(scratch / "store.json"));
+  const Outcome narrow = soilbin(map + "--bed-width 0.3m");
+  EXPECT_EQ(narrow.status, 2);
+  EXPECT_THAT(narrow.err, HasSubstr("a bed 0.3 m wide is too narrow"));
+}
+
 TEST(FailureMapCommand, NamesWhatIsWrong) {
   const auto error = [](const std::string& flags) {
     return soilbin(

@@ -204,6 +204,24 @@ fs::path pebble_case(const Scratch& folder, const std::string& slip) {
                           slip + ", speed: 0.6 m/s}\n");
 }
 
+// A plan is refused for what would refuse its runs, and warns of what they would be warned of.
+TEST(Run, ADryRunJudgesWhatTheRunsWouldMeet) {
+  const Scratch scratch;
+  const std::string run = "run '" + pebble_case(scratch, "20 %").string() + "' --bed-length 1.2m --bed-depth 0.09m ";
+  for (const char* bad : {"--bed-width 0.1m", "--bed-width 0.3m --behind 0.05m", "--bed-width 0.3m --time-step 100ms",
+                          "--bed-width 0.3m --travel 2m", "--bed-width 0.3m --wheel-mesh no-such.stl"}) {
+    const Outcome plan = soilbin(run + "--dry-run " + bad), made = soilbin(run + bad);
+    EXPECT_EQ(plan.status, 2) << bad;
+    EXPECT_EQ(plan.err.substr(plan.err.find("soilbin: ")), made.err.substr(made.err.find("soilbin: "))) << bad;
+  }
+  const auto narrow = HasSubstr("the bed is 1.9 tire widths wide, and its walls hold the soil");
+  const Outcome plan = soilbin(run + "--bed-width 0.19m --dry-run --json");
+  EXPECT_EQ(plan.status, 0) << plan.err;
+  EXPECT_THAT(plan.err, narrow);
+  EXPECT_THAT(plan.json()["warnings"].dump(), narrow);
+  EXPECT_THAT(soilbin(run + "--bed-width 0.25m --dry-run").err, testing::Not(HasSubstr("its walls hold the soil")));
+}
+
 // It lists what it would make, and makes nothing: no record is begun.
 TEST(SlowRun, ADryRunOfConvergeListsTheRepetitions) {
   const Scratch scratch;

@@ -16,6 +16,7 @@ namespace soilbin {
 namespace {
 
 using test::refusal;
+using testing::AllOf;
 using testing::HasSubstr;
 
 using std::numbers::pi;
@@ -65,6 +66,31 @@ TEST(Quantity, UnitsOfSinkageModuliDependOnTheExponent) {
   EXPECT_THAT(refusal([] { si("0.99 kN/m^2", "kN/m^(n+1)", 1.1); }), HasSubstr("is a pressure"));
 }
 
+// As rigs, papers, handbooks and LaTeX have them.
+TEST(Quantity, UnitsOfSinkageModuliAreReadAsPeopleSpellThem) {
+  constexpr double n = 1.1, psi = 6894.757293168361, inch = 0.0254, foot = 0.3048;
+  for (const char* unit : {"kPa/m^n", "kPa/m^(n)", "kPa/m^{n}", "kPa m^-n", "kN m^-(n+2)", "kN m^(-n-2)", "kN/m^{n+2}",
+                           "kN/m\u207f\u207a\u00b2", "kPa/m\u207f", "kN m\u207b\u207f\u207b\u00b2"}) {
+    EXPECT_EQ(si(std::string("1500 ") + unit, "kN/m^(n+2)", n), 1.5e6) << unit;
+  }
+  const auto expect_near = [](double value, double right) { EXPECT_NEAR(value, right, 1e-12 * right); };
+  expect_near(si("3 psi/in^n", "kN/m^(n+2)", n), 3 * psi / std::pow(inch, n));
+  expect_near(si("3 lb/in^(n+2)", "kN/m^(n+2)", n), 3 * psi / std::pow(inch, n));  // a pound-force
+  expect_near(si("3 lb/in^(n+1)", "kN/m^(n+1)", n), 3 * psi / std::pow(inch, n - 1));
+  expect_near(si("3 lb/ft^2", "kPa"), 3 * psi * inch * inch / foot / foot);
+  expect_near(si("62.4 lb/ft^3", "kg/m^3"), 62.4 * 0.45359237 / std::pow(foot, 3));  // a mass, where one is asked
+  EXPECT_DOUBLE_EQ(si("2 m\u00b2", "m^2"), 2.0);
+  EXPECT_DOUBLE_EQ(si("2 s\u207b\u00b9", "1/s"), 2.0);
+}
+
+TEST(Quantity, ARefusalOfAnotherDimensionNamesIt) {
+  EXPECT_THAT(refusal([] { si("20 lb/in^(n+3)", "kN/m^(n+2)", 1.1); }),
+              HasSubstr("'lb/in^(n+3)' is kg*m^(-3-1*n) in base units"));
+  EXPECT_THAT(refusal([] { si("100 J/m^2", "kJ/m^3"); }),
+              AllOf(HasSubstr("expected an energy density, such as '20 kJ/m^3'"), HasSubstr("is an energy per area")));
+  EXPECT_THAT(refusal([] { si("100 J/m^2", "kPa"); }), HasSubstr("'J/m^2' is an energy per area"));
+}
+
 TEST(Quantity, ARefusalSaysWhatWasExpected) {
   EXPECT_EQ(refusal([] { si("0.25", "m"); }), "expected a length, such as '11 mm', not '0.25': it has no unit");
   EXPECT_EQ(refusal([] { si("3 kPa", "m"); }), "expected a length, such as '11 mm', not '3 kPa': 'kPa' is a pressure");
@@ -77,9 +103,10 @@ TEST(Quantity, ARefusalSaysWhatWasExpected) {
 
 TEST(Quantity, RubbishIsRefused) {
   for (const char* text :
-       {"",        " ",        "mm",     "m 3",   "1 m m m)", "1 m)",      "1 (m",  "1 m^",  "1 m^(n", "1 m^x",
-        "1 m;",    "1 2 m",    "0x10 m", "--1 m", "1..2 m",   "1e m",      "nan m", "inf m", "-inf m", ".nan",
-        "1e999 m", "1e-999 m", "1 m/",   "1 *m",  "1 m^99",   "1 m^(n*n)", "1 m!",  "one m", "1 m # x"})
+       {"",        " ",       "mm",        "m 3",      "1 m m m)", "1 m)",   "1 (m",   "1 m^",      "1 m^(n",
+        "1 m^x",   "1 m;",    "1 2 m",     "0x10 m",   "--1 m",    "1..2 m", "1e m",   "nan m",     "inf m",
+        "-inf m",  ".nan",    "1e999 m",   "1e-999 m", "1 m/",     "1 *m",   "1 m^99", "1 m^(n*n)", "1 m^{n",
+        "1 m^(n}", "1 m^--2", "1 m\u207a", "1 m!",     "one m",    "1 m # x"})
     EXPECT_THROW(si(text, "m"), InputError) << "'" << text << "'";
   EXPECT_THAT(refusal([] { si("nan", "m"); }), HasSubstr("finite"));
   EXPECT_THROW(si(std::string(100'000, '('), "m"), InputError);
