@@ -71,6 +71,24 @@ std::vector<Competitor> competitors(const Candidates& candidates) {
   return all;
 }
 
+const WeightedSet* next_standing(const Candidates& candidates, const std::set<std::string>& best) {
+  for (const WeightedSet& w : candidates.sets)
+    if (w.weight > 0 && !std::includes(w.ids.begin(), w.ids.end(), best.begin(), best.end())) return &w;
+  return nullptr;
+}
+
+double lead(const Candidates& candidates) {
+  const std::vector<Competitor> standing = competitors(candidates);
+  const WeightedSet& best = candidates.sets[standing.front().set];
+  const WeightedSet* next = next_standing(candidates, best.ids);
+  double behind = next ? next->log_evidence : candidates.base_log_evidence;
+  for (std::size_t i = 1; i < standing.size(); ++i)
+    behind = std::max(behind, candidates.sets[standing[i].set].log_evidence);
+  return best.log_evidence - behind;
+}
+
+bool is_settled(const Candidates& candidates) { return lead(candidates) > std::log(thresholds::excluded_odds); }
+
 std::vector<WeightedSet> ambiguity_set(const Candidates& candidates) {
   std::vector<WeightedSet> sets;
   double total = 0.0;

@@ -121,18 +121,17 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings&
   if (modulus > length)
     warnings.push_back(fmt::format("K ({:.3g} mm) is longer than the contact ({:.3g} mm){}: shear hardly develops",
                                    1000 * modulus, 1000 * length, at));
-  if (tire.inflation_pressure) {
-    const double carried = *tire.inflation_pressure + tire.carcass_pressure.value_or(0.0);
+  if (const auto carried = declared_ground_pressure(tire_at(tire, answer.at))) {
     const double critical = bekker_wong::critical_ground_pressure(bekker_wong::values_of(*scenario.soil.semi_empirical),
                                                                   tire.radius, tire.width, answer.at.load);
     const bool flexible = std::ranges::any_of(scenario.effects, [](const EffectChoice& effect) {
       return depends_on(bekker_wong::find_form(effect), "inflation_pressure");
     });
-    if (carried < critical && !flexible)
-      warnings.push_back(
-          fmt::format("inflation {:.3g} kPa lies under the critical ground pressure {:.3g} kPa{}: the tire "
-                      "flattens (effect tire_flexibility)",
-                      carried / 1000, critical / 1000, at));
+    if (*carried < critical && !flexible)
+      warnings.push_back(fmt::format(
+          "inflation and carcass pressure, {:.3g} kPa, lie under the critical ground pressure {:.3g} kPa{}: the tire "
+          "flattens (effect tire_flexibility)",
+          *carried / 1000, critical / 1000, at));
   }
 }
 
@@ -204,6 +203,14 @@ Warnings doubts_of_learned(const Case& question) {
   return once_each(words);
 }
 
+/// The tire at the condition that tells the least of its pressure.
+Tire least_told(const Case& question) {
+  const std::vector<OperatingCondition>& all = question.study.conditions;
+  const auto silent = std::ranges::find_if(all, [](const auto& at) { return !at.inflation_pressure; });
+  if (silent != all.end() || all.empty()) return question.scenario.tire;
+  return tire_at(question.scenario.tire, all.front());
+}
+
 /// What is declared and has no influence, and what has influence and is not declared.
 Warnings doubts_of_declarations(const Case& question) {
   Warnings words;
@@ -212,7 +219,7 @@ Warnings doubts_of_declarations(const Case& question) {
   std::vector<EffectChoice> effects;
   for (const ModelChoice& model : question.study.models)
     effects.insert(effects.end(), model.effects.begin(), model.effects.end());
-  append(words, bekker_wong::presumptions(effects, question.scenario.tire));
+  append(words, bekker_wong::presumptions(effects, least_told(question)));
   const std::optional<SemiEmpiricalSoil>& soil = question.scenario.soil.semi_empirical;
   const bool asks_wheel = asks(question.study, ModelKind::bekker_wong);
   if (soil && is_from_command_line(*soil, "gravity") && asks_wheel && !question.drive && !weighs_soil(question))
@@ -294,9 +301,24 @@ DoubtsBeforeFit doubts_of(const Campaign& campaign, const Case& question, const 
   return {warnings, columns};
 }
 
+/// A carcass pressure that a declared effect reads and no fit may move: nobody measures one.
+void add_doubt_of_exact_carcass(const Campaign& campaign, Warnings& warnings) {
+  const auto reads = std::ranges::find_if(campaign.effects, [](const EffectChoice& effect) {
+    return depends_on(bekker_wong::find_form(effect), carcass_pressure_key);
+  });
+  if (reads == campaign.effects.end() || bekker_wong::errs_by_carcass(campaign.wheel, campaign.effects)) return;
+  const double value = campaign.wheel.carcass_pressure.value_or(Estimate{}).value;
+  warnings.push_back(
+      fmt::format("effect {} reads the carcass pressure, and {:.4g} kPa count as exact: what that is off is blamed on "
+                  "whatever looks like it; give it an sd, carcass_pressure: {{value: {:.4g} kPa, sd: ...}}",
+                  reads->id, value / 1000, value / 1000));
+}
+
 DoubtsBeforeFit doubts_as_declared(const Campaign& campaign, NextIs next) {
   const Case question = question_of(campaign, scenario_of(campaign));
-  return doubts_of(campaign, question, quick_answers(question), Answered::no, next);
+  DoubtsBeforeFit doubts = doubts_of(campaign, question, quick_answers(question), Answered::no, next);
+  add_doubt_of_exact_carcass(campaign, doubts.all);
+  return doubts;
 }
 
 }  // namespace

@@ -33,9 +33,12 @@ const std::vector<Declared>& declarable() {
   static const std::vector<Declared> all = {
       {"lugs", "lugs are ignored: add {}", "", "",
        [](const Case& question) { return is_lugged(question.scenario.tire); }},
-      {"inflation_pressure", "the inflation pressure is ignored: add {}",
+      {"inflation_pressure", "the inflation pressure is ignored here: add {} (estimate, explain, limits and run do)",
        "the inflation pressure is ignored: grains meet a rigid tire", "",
-       [](const Case& question) { return question.scenario.tire.inflation_pressure.has_value(); }},
+       [](const Case& question) {
+         return question.scenario.tire.inflation_pressure.has_value() ||
+                any_condition(question, [](const OperatingCondition& at) { return at.inflation_pressure.has_value(); });
+       }},
       of_condition("pass", "", "no condition has a 'pass' of 2 or more", [](At at) { return at.pass > 1; }),
       of_condition("moisture", "grains ignore 'moisture'", "no condition has a 'moisture'",
                    [](At at) { return at.moisture.has_value(); }),

@@ -24,6 +24,9 @@ study:
 const std::vector<std::string> expected = {"lugs are ignored", "the inflation pressure is ignored",
                                            "% of its radius at load 600 N"};
 
+/// What a command says of the pressure: those that answer for a tire take it as flexible, and say so where it flattens.
+bool answers_for_the_tire(const std::string& command) { return command != "compare --no-loop"; }
+
 TEST(DoubtsOfCommands, AreTheSameInAllOfThem) {
   const Scratch scratch;
   const std::string study = " '" + scratch.write("case.yaml", doubtful).string() + "' ";
@@ -33,6 +36,10 @@ TEST(DoubtsOfCommands, AreTheSameInAllOfThem) {
     const std::string warnings = r.json()["warnings"].dump();
     for (const std::string& doubt : expected) {
       if (doubt.find("radius") != std::string::npos && std::string(command) == "limits") continue;  // at other slips
+      if (doubt.find("inflation") != std::string::npos && answers_for_the_tire(command)) {
+        EXPECT_THAT(r.err, Not(HasSubstr(doubt))) << command;
+        continue;
+      }
       EXPECT_THAT(r.err, HasSubstr("warning: ")) << command;
       EXPECT_THAT(r.err, HasSubstr(doubt)) << command;
       EXPECT_THAT(warnings, HasSubstr(doubt)) << command;
