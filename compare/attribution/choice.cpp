@@ -72,18 +72,16 @@ std::vector<Competitor> competitors(const Candidates& candidates) {
 }
 
 const WeightedSet* next_standing(const Candidates& candidates, const std::set<std::string>& best) {
-  for (const WeightedSet& w : candidates.sets)
-    if (w.weight > 0 && !std::includes(w.ids.begin(), w.ids.end(), best.begin(), best.end())) return &w;
-  return nullptr;
+  const auto next =
+      std::ranges::find_if(candidates.sets, [&](const WeightedSet& w) { return w.weight > 0 && w.ids != best; });
+  return next == candidates.sets.end() ? nullptr : &*next;
 }
 
 double lead(const Candidates& candidates) {
-  const std::vector<Competitor> standing = competitors(candidates);
-  const WeightedSet& best = candidates.sets[standing.front().set];
-  const WeightedSet* next = next_standing(candidates, best.ids);
-  double behind = next ? next->log_evidence : candidates.base_log_evidence;
-  for (std::size_t i = 1; i < standing.size(); ++i)
-    behind = std::max(behind, candidates.sets[standing[i].set].log_evidence);
+  const WeightedSet& best = candidates.weighed(candidates.models[*candidates.best].ids);
+  double behind = candidates.base_log_evidence;
+  for (const WeightedSet& w : candidates.sets)
+    if (w.weight > 0 && w.ids != best.ids) behind = std::max(behind, w.log_evidence);
   return best.log_evidence - behind;
 }
 

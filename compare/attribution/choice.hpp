@@ -51,11 +51,10 @@ struct Competitor {
 /// one and more.
 std::vector<Competitor> competitors(const Candidates& candidates);
 
-/// The set that stands next behind the best one and doesn't hold it; nullptr where none was fitted.
+/// The set that stands next to the best one; nullptr where no other was fitted.
 const WeightedSet* next_standing(const Candidates& candidates, const std::set<std::string>& best);
 
-/// ln odds of the best set over the next one, which competes with it or stands next behind it; over the base model
-/// where no other set was fitted.
+/// ln odds of the best set over every other one that was fitted, and over the base model.
 double lead(const Candidates& candidates);
 /// Whether that is so large that no further run is worth it: thresholds::excluded_odds.
 bool is_settled(const Candidates& candidates);

@@ -33,7 +33,7 @@ const std::vector<Declared>& declarable() {
   static const std::vector<Declared> all = {
       {"lugs", "lugs are ignored: add {}", "", "",
        [](const Case& question) { return is_lugged(question.scenario.tire); }},
-      {"inflation_pressure", "the inflation pressure is ignored here: add {} (estimate, explain, limits and run do)",
+      {"inflation_pressure", "the inflation pressure is ignored: add {} (estimate, explain, limits and run do)",
        "the inflation pressure is ignored: grains meet a rigid tire", "",
        [](const Case& question) {
          return question.scenario.tire.inflation_pressure.has_value() ||

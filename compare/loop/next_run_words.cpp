@@ -69,7 +69,6 @@ OperatingCondition missed_most(const LoopAnswer& answer, int channel) {
 
 /// What stands next behind the best set.
 std::string next_behind(const LoopAnswer& answer) {
-  if (answer.ambiguity_set.size() > 1) return named_effects(answer.ambiguity_set[1].ids);
   const WeightedSet* next = next_standing(answer.found().candidates, answer.found().best().ids);
   return named_effects(next ? next->ids : std::set<std::string>());
 }
@@ -108,11 +107,8 @@ std::vector<std::string> what_next(const LoopAnswer& answer) {
     sentences = to_show_its_shape(answer);
   } else if (!proposes_next(answer)) {
     if (answer.verdict == Verdict::effect_found && is_settled(answer.found().candidates))
-      return {fmt::format("{}: the next candidate, {}, is {} times less likely.",
-                          answer.ambiguity_set.size() > 1
-                              ? "No further run is needed to choose the name"
-                              : "One name is left, and no further run is needed to choose it",
-                          next_behind(answer), number(std::exp(lead(answer.found().candidates))))};
+      return {fmt::format("No further run is needed to choose the effect: the next candidate, {}, is {} less likely.",
+                          next_behind(answer), times_likelier(lead(answer.found().candidates)))};
     if (answer.ambiguity_set.size() > 1)
       return {"No condition within the limits separates these candidates in 50 runs."};
     if (answer.verdict == Verdict::effect_found && answer.ambiguity_set.size() == 1)

@@ -15,7 +15,7 @@ using testing::ResultOf;
 /// Lugs and inflation without an effect that hears of them, and a wheel that sinks by more than half its radius.
 constexpr const char* doubtful = R"(format: soilbin-case/1
 name: doubtful
-tire: {radius: 110 mm, width: 100 mm, inflation_pressure: 100 kPa, lugs: {height: 10 mm, count: 12, thickness: 3 mm}}
+tire: {radius: 110 mm, width: 100 mm, inflation_pressure: 400 kPa, lugs: {height: 10 mm, count: 12, thickness: 3 mm}}
 soil: dry-sand
 study:
   conditions: {load: 600 N, slip: 20 %}

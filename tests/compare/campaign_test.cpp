@@ -1,5 +1,6 @@
 // The measured campaign's contract: what is read, and how each bad input is refused.
 #include "compare/measured/campaign.hpp"
+#include "compare/measured/run_columns.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
