@@ -1,6 +1,5 @@
 // The measured campaign's contract: what is read, and how each bad input is refused.
 #include "compare/measured/campaign.hpp"
-#include "compare/measured/run_columns.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +9,7 @@
 
 #include "bekker_wong/effect_vocabulary.hpp"
 #include "compare/measured/csv.hpp"
+#include "compare/measured/run_columns.hpp"
 #include "scenario/case.hpp"
 #include "scenario/library.hpp"
 #include "scenario/soil_parameters.hpp"
