@@ -28,7 +28,7 @@ class Effect;
 
 /// What an effect may look at.
 struct Surroundings {
-  const Tire& tire;
+  const Tire& tire;            ///< with the condition's inflation pressure, where that tells one (tire_at)
   const SoilValues& declared;  ///< the soil before any effect
   const OperatingCondition& at;
   Kinematics motion;

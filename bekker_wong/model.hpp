@@ -17,7 +17,7 @@ SoilValues values_of(const SemiEmpiricalSoil& soil);
 
 /// How much a result is to hold beside the four numbers.
 struct Detail {
-  bool errors = true;  ///< standard errors from the soil's standard deviations, propagated to first order
+  bool errors = true;  ///< standard errors from what the soil's values leave open, to first order, and a fit's misfit
   bool patch = true;   ///< stresses under the wheel
 };
 

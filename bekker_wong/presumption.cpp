@@ -29,6 +29,12 @@ std::vector<Presumed> presumed(const EffectForm& form, const Tire& tire) {
   return all;
 }
 
+bool errs_by_carcass(const Tire& tire, const std::vector<EffectChoice>& effects) {
+  return tire.carcass_pressure && tire.carcass_pressure->std_error > 0.0 &&
+         std::ranges::any_of(
+             effects, [](const EffectChoice& choice) { return depends_on(find_form(choice), carcass_pressure_key); });
+}
+
 std::vector<std::string> presumptions(const std::vector<EffectChoice>& choices, const Tire& tire) {
   struct OfEffect {
     std::string id;

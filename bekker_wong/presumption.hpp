@@ -39,6 +39,9 @@ struct Presumed {
 /// All that a form presumes of this tire; empty where the tire declares whatever the form reads.
 std::vector<Presumed> presumed(const EffectForm& form, const Tire& tire);
 
+/// Whether the tire's carcass pressure has a standard deviation that these effects make felt.
+bool errs_by_carcass(const Tire& tire, const std::vector<EffectChoice>& effects);
+
 /// What these choices presume of the tire, one sentence an effect: "lug thrust presumes lug height = 12.5 mm (5 % of
 /// the radius), which the tire does not declare." Throws InputError as find_form.
 std::vector<std::string> presumptions(const std::vector<EffectChoice>& choices, const Tire& tire);

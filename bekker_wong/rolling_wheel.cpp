@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -40,6 +41,7 @@ struct RollingWheel::Prepared {
   Outline outline;
   Surroundings around;
   NodeLayout layout;
+  std::shared_ptr<const Tire> pumped = {};  ///< the tire at the condition's own pressure; null: as declared
 };
 
 RollingWheel::RollingWheel(const Tire& tire, const SoilValues& soil, EffectList effects, std::optional<Bin> bin)
@@ -64,15 +66,19 @@ RollingWheel::Prepared RollingWheel::prepare(const OperatingCondition& at) const
   if (!(at.load > 0.0 && std::isfinite(at.load))) throw InputError("the load must be positive");
   if (!(at.speed >= 0.0 && std::isfinite(at.speed))) throw InputError("the speed must be 0 or more: slip has the sign");
   if (!std::isfinite(at.longitudinal_incline + at.transverse_incline)) throw InputError("an incline must be a number");
+  if (at.inflation_pressure && !(*at.inflation_pressure >= 0.0 && std::isfinite(*at.inflation_pressure)))
+    throw InputError("the inflation pressure must be 0 or more");
+  auto pumped = at.inflation_pressure ? std::make_shared<const Tire>(tire_at(tire_, at)) : nullptr;
+  const Tire& tire = pumped ? *pumped : tire_;
   Prepared p{
       .at = at,
       .outline = {.radius = tire_.radius,
                   .width = tire_.width,
                   .shear_radius = tire_.radius,
                   .slip_radius = tire_.radius},
-      .around =
-          {.tire = tire_, .declared = soil_, .at = at, .motion = kinematics(at), .bin = bin_, .effects = effects_},
-      .layout = {}};
+      .around = {.tire = tire, .declared = soil_, .at = at, .motion = kinematics(at), .bin = bin_, .effects = effects_},
+      .layout = {},
+      .pumped = std::move(pumped)};
   p.around.normal_load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
   if (!(p.around.normal_load > 0.0)) throw InputError("on this incline no load presses on the ground");
   for (const auto& effect : effects_) effect->soil(p.around.soil, p.around);

@@ -40,9 +40,9 @@ BalanceDerivatives::BalanceDerivatives(const Tire& tire, const SoilValues& soil,
   by_angle_ = slopes(turned(-angle_step * theta_1_), turned(angle_step * theta_1_));
 }
 
-BalanceDerivatives::OnePoint BalanceDerivatives::point(const SoilValues& soil, const EffectList& effects,
-                                                       double theta_1, double x) const try {
-  const RolledWheel wheel = RollingWheel(tire_, soil, effects, bin_).at_entry_angle(at_, theta_1, nodes_);
+BalanceDerivatives::OnePoint BalanceDerivatives::point(const Tire& tire, const SoilValues& soil,
+                                                       const EffectList& effects, double theta_1, double x) const try {
+  const RolledWheel wheel = RollingWheel(tire, soil, effects, bin_).at_entry_angle(at_, theta_1, nodes_);
   Point point{.x = x, .carried = wheel.forces.vertical};
   for (std::size_t i = 0; i < point.channels.size(); ++i) point.channels[i] = wheel.reading.*reading_members[i];
   return point;
@@ -84,6 +84,17 @@ BalanceDerivatives::Channels BalanceDerivatives::by(std::size_t parameter, doubl
   return balanced(with(beside.below), with(beside.above));
 }
 
+BalanceDerivatives::Channels BalanceDerivatives::by_carcass_pressure(double sd) const {
+  const double x = tire_.carcass_pressure->value;
+  const Neighbours beside = neighbours(x, step_of(x, sd), zero_or_more);
+  const auto with = [&](double value) {
+    Tire tire = tire_;
+    tire.carcass_pressure->value = value;
+    return point(tire, soil_, effects_, theta_1_, value - x);
+  };
+  return balanced(with(beside.below), with(beside.above));
+}
+
 BalanceDerivatives::Channels BalanceDerivatives::by(const std::vector<EffectChoice>& choices, std::size_t effect,
                                                     const std::string& parameter, double sd) const {
   const EffectParameter& described = find_parameter(find_form(choices[effect]), parameter);
@@ -120,6 +131,10 @@ std::vector<Shift> shifts_of(const BalanceDerivatives& derivatives, const Scenar
   for (std::size_t p = 0; p < soil_parameters.size(); ++p)
     if (const double sd = ((*scenario.soil.semi_empirical).*soil_parameters[p].value).std_error; sd > 0.0)
       shifts.push_back({soil_parameters[p].name, times(sd, derivatives.by(p, sd))});
+  if (errs_by_carcass(scenario.tire, scenario.effects)) {
+    const double sd = scenario.tire.carcass_pressure->std_error;
+    shifts.push_back({carcass_pressure_key, times(sd, derivatives.by_carcass_pressure(sd))});
+  }
   for (const FittedError& error : scenario.errors)
     if (const auto place = find_effect_parameter(error.parameter, scenario.effects); place && error.std_error > 0.0)
       shifts.push_back({error.parameter, times(*error.std_error, derivatives.by(scenario.effects, place->effect,
@@ -134,7 +149,7 @@ void add_standard_errors(TractionResult& result, const RolledWheel& balanced, co
   const SemiEmpiricalSoil& declared = *scenario.soil.semi_empirical;
   const bool exact_soil =
       std::ranges::none_of(soil_parameters, [&](const auto& p) { return (declared.*p.value).std_error > 0.0; });
-  if (exact_soil && scenario.errors.empty()) return;
+  if (exact_soil && scenario.errors.empty() && !errs_by_carcass(scenario.tire, scenario.effects)) return;
   const SoilValues soil = values_of(declared);
   const BalanceDerivatives derivatives(scenario.tire, soil, effects, scenario.bin, balanced.at, balanced.balance_angle);
   std::vector<Shift> shifts = shifts_of(derivatives, scenario);

@@ -1,5 +1,5 @@
-// Standard errors of a balanced wheel's channels, from the standard deviations of the soil's parameters, and of the
-// effects' where a fit found both.
+// Standard errors of a balanced wheel's channels, from the standard deviations of the soil's parameters and of the
+// tire's carcass pressure, and of the effects' where a fit found both.
 #pragma once
 
 #include <array>
@@ -32,6 +32,8 @@ class BalanceDerivatives {
 
   /// By soil_parameters[parameter]; `sd`, its standard deviation, sets the step [SI]. Not finite where there is none.
   Channels by(std::size_t parameter, double sd) const;
+  /// By the carcass pressure of the tire, with its standard deviation [Pa].
+  Channels by_carcass_pressure(double sd) const;
   /// The same by a parameter of choices[effect], the effects of which `effects` was made.
   Channels by(const std::vector<EffectChoice>& choices, std::size_t effect, const std::string& parameter,
               double sd) const;
@@ -45,7 +47,10 @@ class BalanceDerivatives {
   };
   using OnePoint = std::optional<Point>;
 
-  OnePoint point(const SoilValues& soil, const EffectList& effects, double theta_1, double x) const;
+  OnePoint point(const SoilValues& soil, const EffectList& effects, double theta_1, double x) const {
+    return point(tire_, soil, effects, theta_1, x);
+  }
+  OnePoint point(const Tire& tire, const SoilValues& soil, const EffectList& effects, double theta_1, double x) const;
   /// Of the balanced channels, from points at the balanced theta_1 on both sides.
   Channels balanced(const OnePoint& below, const OnePoint& above) const;
   /// Slopes over x, in place of values; one-sided where a point is missing, not a number without both.

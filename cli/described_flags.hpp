@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "cli/flag_values.hpp"
@@ -25,6 +26,11 @@ inline std::string flag_of(const std::string& prefix, std::string key) {
   return "--" + prefix + key;
 }
 
+/// Whether a described member takes a standard deviation with its value.
+template <class T, class Member>
+inline constexpr bool has_deviation =
+    std::is_same_v<std::decay_t<decltype(T().*std::declval<Member>())>, std::optional<Estimate>>;
+
 /// Flags for the described numbers, whole numbers and choices of T.
 template <class T>
 class DescribedFlags {
@@ -39,7 +45,7 @@ class DescribedFlags {
       if (std::ranges::find(without, key) != without.end()) return;
       std::string kind;
       if constexpr (std::is_same_v<Limits, Measure>)
-        kind = limits.unit == "-" ? "NUMBER|%" : limits.unit;
+        kind = (limits.unit == "-" ? "NUMBER|%" : limits.unit) + (has_deviation<T, decltype(member)> ? "[+-SD]" : "");
       else if constexpr (std::is_same_v<Limits, int>)
         kind = "WHOLE";
       else
@@ -92,7 +98,9 @@ class DescribedFlags {
       const std::string &text = texts_.at(key), flag = flag_of(prefix_, key);
       if (text.empty() || (!only.empty() && only != key)) return;
       using Limits = std::decay_t<decltype(limits)>;
-      if constexpr (std::is_same_v<Limits, Measure>)
+      if constexpr (std::is_same_v<std::decay_t<decltype(into.*member)>, std::optional<Estimate>>)
+        into.*member = read_estimate_flag(flag, text, limits, into.*member);
+      else if constexpr (std::is_same_v<Limits, Measure>)
         into.*member = read_flag(flag, text, limits);
       else if constexpr (std::is_same_v<Limits, int>)
         into.*member = read_whole(flag, text, limits);

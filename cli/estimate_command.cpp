@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -43,6 +44,7 @@ void print_text(const Case& question, const std::vector<compare::ModelAnswers>& 
 struct EstimateOptions {
   bool json = false;
   std::string csv, plot;
+  RigidFlag rigid;
 };
 
 compare::Sheet sheet_of(const Case& question, const std::vector<compare::ModelAnswers>& study) {
@@ -57,14 +59,15 @@ compare::Sheet sheet_of(const Case& question, const std::vector<compare::ModelAn
 }
 
 int estimate(const Question& inputs, const EstimateOptions& options, const Session& session) {
-  const Case question = inputs.ask(session.place);
+  Case question = inputs.ask(session.place);
   if (!options.plot.empty() && compare::curves_run_over(question.study.conditions) == nullptr)
     throw InputError(
         "--plot draws curves: it takes several values of slip or of another condition\n"
         "  hint: --slip 0%..60%, or --load 50N..200N; the steepest slope: soilbin limits --plot slope.svg");
   require_semi_empirical(question, session.place.library);
+  std::vector<std::string> doubts = options.rigid.apply(question, inputs.switches_effects_off());
   const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
-  const std::vector<std::string> doubts = compare::doubts(question, study);
+  std::ranges::copy(compare::doubts(question, study), std::back_inserter(doubts));
   print_warnings(doubts);
   Outputs outputs;
   outputs.file(options.csv, [&] { return compare::study_csv(study, compare::remarks_about(question.scenario)); });
@@ -85,6 +88,7 @@ void add_estimate(CLI::App& app, Session& session) {
       app.add_subcommand("estimate", "drawbar pull, torque, sinkage and side force, from flags or a case");
   const auto inputs = std::make_shared<Question>(*command);
   const auto options = std::make_shared<EstimateOptions>();
+  options->rigid.add_to(*command);
   add_plot(*command, options->plot, "draw the curves over slip, or over another condition that varies");
   add_file(*command, "--csv", options->csv, "FILE.csv", "save the table");
   command->add_flag("--json", options->json, "the answers as JSON, in SI");

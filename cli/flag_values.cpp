@@ -34,6 +34,25 @@ double read_flag(const std::string& flag, const std::string& text, const Measure
   }
 }
 
+std::pair<std::string, std::string> value_and_deviation(std::string text) {
+  for (const char* sign : {"±", "+-"}) {
+    const std::vector<std::string> parts = split(text, sign);
+    if (parts.size() != 2) continue;
+    const std::size_t digits = parts[1].find_first_not_of("0123456789.eE+- ");
+    const std::string unit = digits == std::string::npos ? "" : parts[1].substr(digits);
+    return {read_number(parts[0]) ? parts[0] + " " + unit : parts[0], parts[1]};
+  }
+  return {std::move(text), ""};
+}
+
+Estimate read_estimate_flag(const std::string& flag, const std::string& text, const Measure& measure,
+                            const std::optional<Estimate>& before) {
+  const auto [value, deviation] = value_and_deviation(text);
+  Estimate estimate{read_flag(flag, value, measure), before ? before->std_error : 0.0};
+  if (!deviation.empty()) estimate.std_error = read_flag(flag, deviation, {measure.unit, zero_or_more});
+  return estimate;
+}
+
 void set_where_given(const std::string& flag, const std::string& text, const Measure& measure, double& number) {
   if (!text.empty()) number = read_flag(flag, text, measure);
 }

@@ -3,11 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "scenario/estimate.hpp"
 #include "scenario/quantity.hpp"
 
 namespace soilbin::cli {
@@ -17,6 +19,14 @@ std::vector<std::string> split(std::string_view text, std::string_view between);
 
 /// A number [SI]. Throws InputError that names the flag.
 double read_flag(const std::string& flag, const std::string& text, const Measure& measure);
+
+/// "30+-2 deg" as {"30 deg", "2 deg"}; the second is empty where none is given.
+std::pair<std::string, std::string> value_and_deviation(std::string text);
+
+/// A value with or without its standard deviation, "30+-2kPa"; without one it keeps that of `before`. Throws InputError
+/// that names the flag.
+Estimate read_estimate_flag(const std::string& flag, const std::string& text, const Measure& measure,
+                            const std::optional<Estimate>& before);
 
 /// Sets a number [SI] where the flag was given. Throws InputError that names the flag.
 void set_where_given(const std::string& flag, const std::string& text, const Measure& measure, double& number);

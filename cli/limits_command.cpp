@@ -2,6 +2,8 @@
 // each.
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -19,6 +21,7 @@ namespace {
 struct LimitsOptions {
   bool json = false;
   std::string csv, plot, max_slip;
+  RigidFlag rigid;
 };
 
 double max_slip_of(const LimitsOptions& options) {
@@ -27,11 +30,12 @@ double max_slip_of(const LimitsOptions& options) {
 }
 
 int limits(const Question& inputs, const LimitsOptions& options, const Session& session) {
-  const Case question = inputs.ask(session.place);
+  Case question = inputs.ask(session.place);
   require_semi_empirical(question, session.place.library);
+  std::vector<std::string> doubts = options.rigid.apply(question, inputs.switches_effects_off());
   const std::vector<compare::WheelLimits> answers = compare::limits_of(question, max_slip_of(options));
   const std::vector<compare::ModelAnswers> at_limits = compare::answers_at_limits(question, answers);
-  const std::vector<std::string> doubts = compare::doubts(question, at_limits);
+  std::ranges::copy(compare::doubts(question, at_limits), std::back_inserter(doubts));
   print_warnings(doubts);
   Outputs outputs;
   outputs.file(options.csv,
@@ -59,6 +63,7 @@ void add_limits(CLI::App& app, Session& session) {
   const auto inputs = std::make_shared<Question>(*command, std::vector<std::string>{"load"},
                                                  std::vector<std::string>{"slip", "longitudinal_incline"});
   const auto options = std::make_shared<LimitsOptions>();
+  options->rigid.add_to(*command);
   add_plot(*command, options->plot, "draw the largest pull and the slips against the slope");
   add_file(*command, "--csv", options->csv, "FILE.csv", "save the table");
   command

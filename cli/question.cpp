@@ -81,18 +81,6 @@ double implied_speed(const AskedCondition& one, const Tire& tire) {
       fmt::format("soil '{}' has no {}\n  hint: these have: {}", clipped(soil.name), lacks, listed(right)));
 }
 
-/// "30+-2 deg" as {"30 deg", "2 deg"}; the second is empty where none is given.
-std::pair<std::string, std::string> value_and_deviation(std::string text) {
-  for (const char* sign : {"±", "+-"}) {
-    const std::vector<std::string> parts = split(text, sign);
-    if (parts.size() != 2) continue;
-    const std::size_t digits = parts[1].find_first_not_of("0123456789.eE+- ");
-    const std::string unit = digits == std::string::npos ? "" : parts[1].substr(digits);
-    return {read_number(parts[0]) ? parts[0] + " " + unit : parts[0], parts[1]};
-  }
-  return {std::move(text), ""};
-}
-
 /// A value without a deviation keeps the one that it had; an assumed share stays a share.
 void set_value(const SoilParameter& p, const std::string& text, SemiEmpiricalSoil& soil) {
   const auto [value, deviation] = value_and_deviation(text);
@@ -244,7 +232,7 @@ Question::Question(CLI::App& app, std::vector<std::string> needed, const std::ve
   add_value(app, "case", case_name_, "CASE", "a case file, or a study of the library");
   add_value(app, "--soil", soil_, "NAME|FILE", "a soil of the library, or a YAML file")->group("Tire and soil");
   add_value(app, "--tire", tire_, "NAME|FILE", "a tire of the library, or a YAML file")->group("Tire and soil");
-  wheel_.add_to(app, "Tire and soil");
+  wheel_.add_to(app, "Tire and soil", "", {"inflation_pressure"});  // a condition's
   lugs_.add_to(app, "Tire and soil", "lug-");
   bin_.add_to(app, "Tire and soil", "bin-");
   soil_values_.add_to(app, "Values of the soil, in place of its own");
@@ -301,7 +289,8 @@ Case Question::ask(const Workplace& place) const {
     override_tire(question.scenario.tire, place);
     if (!soil_.empty()) {
       question.scenario.soil = find_soil(soil_, place.library);
-      for (ModelChoice& choice : question.study.models) choice.errors.clear();  // of the soil that was fitted
+      for (ModelChoice& choice : question.study.models)
+        choice.errors.clear(), choice.misfit = {};  // of the soil that was fitted
     }
     condition_.pick(question);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -11,6 +12,7 @@
 #include "cli/described_flags.hpp"
 #include "cli/workplace.hpp"
 #include "compare/sweep/answers.hpp"
+#include "compare/sweep/declared_flexibility.hpp"
 
 namespace soilbin::cli {
 
@@ -66,6 +68,23 @@ class ErrorFlag {
   bool exact_ = false;
 };
 
+/// --rigid; without it a tire with a declared inflation pressure is flexible where it flattens.
+class RigidFlag {
+ public:
+  void add_to(CLI::App& app) {
+    app.add_flag("--rigid", rigid_, "a rigid wheel, whatever inflation pressure the tire declares")->group("Model");
+  }
+  /// What to tell of it, a sentence each. `base_model`: every effect was switched off by name. Throws InputError for a
+  /// question that names the effect tire_flexibility.
+  std::vector<std::string> apply(Case& question, bool base_model = false) const {
+    if (rigid_) compare::make_rigid(question);
+    return rigid_ || base_model ? std::vector<std::string>() : compare::flexible_where_declared(question);
+  }
+
+ private:
+  bool rigid_ = false;
+};
+
 /// Flags for a soil's own values: "--friction-angle 30deg", "--k-phi '1500+-200 kN/m^(n+2)'", named as in a soil file.
 class SoilFlags {
  public:
@@ -96,6 +115,8 @@ class Question {
 
   /// Throws InputError that names the flag that is missing or wrong.
   Case ask(const Workplace& place) const;
+  /// Whether '--effect none' was given.
+  bool switches_effects_off() const { return std::ranges::find(effects_, "none") != effects_.end(); }
 
  private:
   Case from_flags(const Workplace& place) const;

@@ -30,6 +30,8 @@ struct RunOptions {
   bool json = false, converge = false, dry_run = false;
   ConditionFlags conditions;
   ErrorFlag errors;
+  RigidFlag rigid;
+  std::vector<std::string> notes;  ///< of the tire's flexibility
   SoilBinFlags soil_bin;
 };
 
@@ -209,6 +211,7 @@ int answer(const RunOptions& options, const Case& question, const Case& whole,
     return compare::answer_study(question, whole, grains, session.place.effects, before, shown_progress());
   });
   answered.step = step;
+  answered.doubts.insert(answered.doubts.begin(), options.notes.begin(), options.notes.end());
   Outputs outputs;
   save(outputs, options, question, answered, session.place);
   print_warnings(answered.doubts);
@@ -234,6 +237,7 @@ int run(RunOptions options, const CLI::App& command, const Session& session) {
   if (bin.engine == "lammps") compare::name_lammps(question);
   const Case whole = question;  // a record that is begun holds all conditions
   options.conditions.pick(question);
+  options.notes = options.rigid.apply(question);
   check_flags(options, command, question);
   if (options.converge) return converge(options, question, session);
   if (options.dry_run) return plan(options, question);
@@ -262,6 +266,7 @@ void add_run(CLI::App& app, Session& session) {
       ->group(grains_heading);
   options->conditions.add_to(*command);
   options->errors.add_to(*command);
+  options->rigid.add_to(*command);
   options->soil_bin.add_to(*command);
   options->soil_bin.add_half_step_to(*command);
   options->soil_bin.add_engine_to(*command);

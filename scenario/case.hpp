@@ -36,7 +36,11 @@ struct ModelChoice {
   std::vector<EffectChoice> effects;     ///< forms and parameters resolved; none for the discrete element model
   std::string label;                     ///< for tables and plots; by default made of the model and the effects' ids
   std::vector<FittedError> errors = {};  ///< where soil and effects come from a fit: how they err together
+  Misfit misfit = {};                    ///< of that fit
 };
+
+/// Whether a fit made the model: it answers as it was fitted.
+inline bool is_fitted(const ModelChoice& choice) { return !choice.errors.empty() || choice.misfit != Misfit{}; }
 
 /// The scenario as one of the models is to see it.
 Scenario seen_by(const ModelChoice& choice, Scenario scenario);

@@ -9,6 +9,7 @@
 #include "scenario/fitted_errors.hpp"
 #include "scenario/mapping_reader.hpp"
 #include "scenario/named_parts.hpp"
+#include "scenario/traction_channels.hpp"
 
 namespace soilbin {
 namespace {
@@ -41,17 +42,30 @@ void read_effects_and_errors(const YamlNode& node, const EffectVocabulary& effec
     into.errors = read_fitted_errors(*list, into.effects, effects, reading);
 }
 
-/// A model's name, or {model, effects, label, errors}.
+Misfit read_misfit(const YamlNode& node, const Reading& reading) {
+  std::vector<std::string> keys;
+  for (const TractionChannel& channel : traction_channels) keys.emplace_back(channel.name);
+  expect_keys(node, keys, reading);
+  Misfit misfit{};
+  for (std::size_t i = 0; i < misfit.size(); ++i)
+    if (const YamlNode* rms = value_of(node, keys[i], Need::optional, "root mean square misfit", reading))
+      misfit[i] = read_scalar(*rms, {std::string(traction_channels[i].si_unit), zero_or_more}, reading).value;
+  return misfit;
+}
+
+/// A model's name, or {model, effects, label, errors, misfit}.
 ModelChoice read_model(const YamlNode& node, const Soil& soil, const EffectVocabulary& effects,
                        const Reading& reading) {
   ModelChoice choice;
   if (!node.is_mapping()) {
     choice.model = read_choice<ModelKind>(node, reading);
   } else {
-    expect_keys(node, {"model", "effects", "label", "errors"}, reading);
+    expect_keys(node, {"model", "effects", "label", "errors", "misfit"}, reading);
     choice.model =
         read_choice<ModelKind>(*value_of(node, "model", Need::required, "bekker_wong or dem", reading), reading);
     read_effects_and_errors(node, effects, reading, choice);
+    if (const YamlNode* misfit = value_of(node, "misfit", Need::optional, "what a fit missed, by channel", reading))
+      choice.misfit = read_misfit(*misfit, reading);
     if (const YamlNode* label = value_of(node, "label", Need::optional, "for tables and plots", reading))
       choice.label = read_name(*label, reading);
   }
@@ -126,6 +140,7 @@ bool asks(const Study& study, ModelKind kind) {
 Scenario seen_by(const ModelChoice& choice, Scenario scenario) {
   scenario.effects = choice.effects;
   scenario.errors = choice.errors;
+  scenario.misfit = choice.misfit;
   return scenario;
 }
 

@@ -2,9 +2,20 @@
 #include "scenario/effect_choices.hpp"
 #include "scenario/fitted_errors.hpp"
 #include "scenario/mapping_writer.hpp"
+#include "scenario/traction_channels.hpp"
 
 namespace soilbin {
 namespace {
+
+void write_misfit(const Misfit& misfit, YamlLines& lines) {
+  if (misfit == Misfit{}) return;
+  lines.open("misfit");
+  for (std::size_t i = 0; i < misfit.size(); ++i)
+    if (misfit[i] > 0.0)
+      lines.value(std::string(traction_channels[i].name),
+                  write_quantity(misfit[i], std::string(traction_channels[i].si_unit)));
+  lines.close();
+}
 
 void write_models(const Study& study, const EffectVocabulary& effects, std::optional<double> n, YamlLines& lines) {
   lines.open("models");
@@ -14,6 +25,7 @@ void write_models(const Study& study, const EffectVocabulary& effects, std::opti
     write_effects(choice.effects, effects, n, lines);
     if (!choice.label.empty()) lines.value("label", yaml_scalar(choice.label));
     write_fitted_errors(choice.errors, choice.effects, effects, n, lines);
+    write_misfit(choice.misfit, lines);
     lines.close();
   }
   lines.close();

@@ -3,7 +3,7 @@
 //
 // describe(visitor, std::type_identity<T>{}) calls, for each key of T in the order in which it is written:
 //   visitor.text    (key, member, need, meaning)             a std::string
-//   visitor.number  (key, member, measure, need, meaning)    a double, an optional one, or an Estimate
+//   visitor.number  (key, member, measure, need, meaning)    a double or an Estimate, or an optional one
 //   visitor.exponent(key, member, range, need, meaning)      the soil's n, on which later units depend
 //   visitor.assumed_sd(key, member, meaning)                 a share of later values, their sd where they have none
 //   visitor.integer (key, member, lowest, need, meaning)     an int or an optional one
@@ -226,6 +226,8 @@ void describe(Visitor& v, std::type_identity<OperatingCondition>) {
   v.number("yaw", &C::yaw, Measure{"deg", yaws}, Need::optional,
            "positive: the wheel points to the left of its travel");
   v.integer("pass", &C::pass, 1, Need::optional, "1: undisturbed soil");
+  v.number("inflation_pressure", &C::inflation_pressure, Measure{"kPa", zero_or_more}, Need::optional,
+           "of the tire; absent: the tire's own");
   v.choice("slip_by", &C::slip_by, Need::optional, "the speed from which slip is computed");
   v.choice("force_frame", &C::force_frame, Need::optional, "axes of drawbar pull and lateral force");
   v.number("moisture", &C::moisture, Measure{"%", fractions}, Need::optional, "water content by mass");

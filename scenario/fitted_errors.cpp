@@ -15,6 +15,7 @@ namespace {
 std::vector<std::string> parameters_of(const std::vector<EffectChoice>& effects) {
   std::vector<std::string> names;
   for (const SoilParameter& p : soil_parameters) names.emplace_back(p.name);
+  names.emplace_back(carcass_pressure_key);
   for (std::size_t i = 0; i < effects.size(); ++i)
     for (const auto& [name, value] : effects[i].parameters) names.push_back(effect_parameter_name(effects, i, name));
   return names;
@@ -32,14 +33,17 @@ FittedError read_error(const YamlNode& node, const std::vector<FittedError>& abo
                        const std::vector<EffectChoice>& effects, const EffectVocabulary& vocabulary,
                        const Reading& reading) {
   expect_keys(node, {"parameter", "sd", "correlations"}, reading);
-  const YamlNode& name = *value_of(node, "parameter", Need::required, "of the soil or of an effect", reading);
+  const YamlNode& name =
+      *value_of(node, "parameter", Need::required, "of the soil, of the tire or of an effect", reading);
   const std::vector<std::string> known = parameters_of(effects);
   FittedError error;
   error.parameter = known[read_word(name, known, reading)];
   const YamlNode* sd = value_of(node, "sd", Need::optional, "standard deviation", reading);
   const auto place = find_effect_parameter(error.parameter, effects);
   if (place && !sd) reading.refuse(node, fmt::format("'{}' has no sd", error.parameter));
-  if (!place && sd) reading.refuse(*sd, fmt::format("the sd of '{}' stands with the soil", error.parameter));
+  if (!place && sd)
+    reading.refuse(*sd, fmt::format("the sd of '{}' stands with the {}", error.parameter,
+                                    error.parameter == carcass_pressure_key ? "tire" : "soil"));
   if (place) error.std_error = read_scalar(*sd, measure_of(*place, effects, vocabulary), reading).value;
   if (const YamlNode* list = value_of(node, "correlations", Need::optional, "with the parameters above", reading)) {
     if (!list->is_sequence() || list->items.size() != above.size())

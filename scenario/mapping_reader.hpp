@@ -78,7 +78,7 @@ class ReadInto {
   void number(const char* key, N T::*member, const Measure& measure, Need need, const char* meaning) {
     const YamlNode* node = find(key, need, meaning);
     if (node == nullptr) return;
-    if constexpr (std::is_same_v<N, Estimate>)
+    if constexpr (std::is_same_v<N, Estimate> || std::is_same_v<N, std::optional<Estimate>>)
       into_.*member = read_estimate(*node, measure, key, reading_);
     else
       into_.*member = read_number(*node, measure, key, reading_);

@@ -89,6 +89,10 @@ class WriteFrom {
     write_estimate(key, estimate, measure.unit, writing_, writing_.assumed_sd * std::abs(estimate.value));
   }
 
+  void number(const char* key, std::optional<Estimate> T::*member, const Measure& measure, Need, const char*) {
+    if (from_.*member) write_estimate(key, *(from_.*member), measure.unit, writing_);
+  }
+
   void exponent(const char* key, Estimate T::*member, const Range& range, Need need, const char* meaning) {
     number(key, member, Measure{"-", range}, need, meaning);
     writing_.n = (from_.*member).value;

@@ -45,7 +45,7 @@ struct Visitor {
     if constexpr (requires { value.std_error; })
       on(value.value);
     else if constexpr (requires { value.has_value(); }) {
-      if (value) on(*value);
+      if (value) each(*value, on);
     } else
       on(value);
   }

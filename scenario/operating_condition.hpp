@@ -1,5 +1,5 @@
-// One operating point of a wheel: load, slip, speed, slopes, yaw, pass. A model is asked for it, and a measured run was
-// made at it.
+// One operating point of a wheel: load, slip, speed, slopes, yaw, pass, inflation pressure. A model is asked for it,
+// and a measured run was made at it.
 //
 //   const OperatingCondition uphill{.load = 4000, .slip = 0.2, .longitudinal_incline = 0.17};  // [N], [-], [rad]
 #pragma once
@@ -36,6 +36,8 @@ struct OperatingCondition {
   std::optional<double> moisture{};  ///< water content by mass [-]
   std::optional<double> position{};  ///< mean distance along the bin [m]
   std::optional<int> run{};          ///< order in which the runs were made
+  /// Of the tire in this run, in place of its declared one [Pa]; absent: the tire's own (tire_at).
+  std::optional<double> inflation_pressure{};
 
   /// Member by member: equal where every number is the same, sorted as a tuple.
   auto operator<=>(const OperatingCondition&) const = default;

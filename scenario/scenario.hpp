@@ -5,6 +5,7 @@
 //   result.drawbar_pull.value, result.drawbar_pull.std_error  // [N]
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -37,6 +38,10 @@ struct FittedError {
   std::vector<double> correlations;  ///< with each of those before it in the list; empty: with none
 };
 
+/// How far a fitted model missed runs that its fit had not seen, beyond their noise: root mean squares of the four
+/// traction_channels [SI]; 0: not known, or no more than noise.
+using Misfit = std::array<double, 4>;
+
 /// Everything but the operating condition: which tire, on which soil, seen through which effects.
 struct Scenario {
   Tire tire;
@@ -44,6 +49,7 @@ struct Scenario {
   std::optional<Bin> bin;
   std::vector<EffectChoice> effects;
   std::vector<FittedError> errors = {};  ///< of soil and effects where a fit found them; others err independently
+  Misfit misfit = {};                    ///< of a fitted model: a part of every standard error
 };
 
 /// One way of answering: semi-empirical, discrete elements, or measurements.

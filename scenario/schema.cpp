@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scenario/schema_visitor.hpp"
+#include "scenario/traction_channels.hpp"
 
 namespace soilbin {
 
@@ -91,11 +92,21 @@ ordered_json conditions_schema() {
 ordered_json fitted_errors_schema() {
   ordered_json error = empty_object_schema();
   const ordered_json correlation = {{"type", "number"}, {"minimum", -1}, {"maximum", 1}};
-  error["properties"] = {{"parameter", text_schema("of the soil, or of an effect: slip_sinkage.a")},
-                         {"sd", text_schema("standard deviation, of an effect's parameter")},
-                         {"correlations", {{"type", "array"}, {"items", correlation}}}};
+  error["properties"] = {
+      {"parameter", text_schema("of the soil, of the tire (carcass_pressure), or of an effect: slip_sinkage.a")},
+      {"sd", text_schema("standard deviation, of an effect's parameter")},
+      {"correlations", {{"type", "array"}, {"items", correlation}}}};
   error["required"] = {"parameter"};
   return {{"type", "array"}, {"items", error}, {"description", "of a fit"}};
+}
+
+ordered_json misfit_schema() {
+  ordered_json misfit = empty_object_schema();
+  for (const TractionChannel& channel : traction_channels)
+    misfit["properties"][std::string(channel.name)] =
+        quantity_schema({std::string(channel.si_unit), zero_or_more}, "root mean square, beyond the runs' noise");
+  misfit["description"] = "how far a fit missed runs that it had not seen: a part of every standard error";
+  return misfit;
 }
 
 ordered_json models_schema(const EffectVocabulary& effects) {
@@ -104,7 +115,8 @@ ordered_json models_schema(const EffectVocabulary& effects) {
   object["properties"] = {{"model", name},
                           {"effects", effects_schema(effects)},
                           {"label", text_schema("for tables and plots")},
-                          {"errors", fitted_errors_schema()}};
+                          {"errors", fitted_errors_schema()},
+                          {"misfit", misfit_schema()}};
   object["required"] = {"model"};
   return {{"type", "array"}, {"minItems", 1}, {"items", {{"anyOf", ordered_json::array({name, object})}}}};
 }

@@ -45,6 +45,10 @@ class SchemaOf {
     add(key, need, number_schema(measure, meaning, true));
   }
 
+  void number(const char* key, std::optional<Estimate> T::*, const Measure& measure, Need need, const char* meaning) {
+    add(key, need, number_schema(measure, meaning, true));
+  }
+
   void exponent(const char* key, Estimate T::*, const Range& range, Need need, const char* meaning) {
     add(key, need, number_schema(Measure{"-", range}, meaning, true));
   }

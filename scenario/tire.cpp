@@ -7,6 +7,16 @@
 
 namespace soilbin {
 
+Tire tire_at(Tire tire, const OperatingCondition& at) {
+  if (at.inflation_pressure) tire.inflation_pressure = at.inflation_pressure;
+  return tire;
+}
+
+std::optional<double> declared_ground_pressure(const Tire& tire) {
+  if (!tire.inflation_pressure) return std::nullopt;
+  return *tire.inflation_pressure + (tire.carcass_pressure ? tire.carcass_pressure->value : 0.0);
+}
+
 std::string why_no_gaps(const Tire& tire) {
   if (!is_lugged(tire) || !tire.lugs.count || !tire.lugs.thickness) return "";
   constexpr double pi = std::numbers::pi;

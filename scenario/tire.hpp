@@ -10,6 +10,9 @@
 #include <optional>
 #include <string>
 
+#include "scenario/estimate.hpp"
+#include "scenario/operating_condition.hpp"
+
 namespace soilbin {
 
 /// How the lugs (grousers) run across the tread.
@@ -26,6 +29,9 @@ struct Lugs {
   LugPattern pattern = LugPattern::straight;
 };
 
+/// The key of Tire::carcass_pressure in files, and its name among the values that a fit found.
+inline constexpr const char* carcass_pressure_key = "carcass_pressure";
+
 /// A wheel as the soil meets it. Radius and width belong to the tread base, without lugs.
 struct Tire {
   std::string name;
@@ -33,7 +39,7 @@ struct Tire {
   double width = 0.0;   ///< b [m], > 0
   Lugs lugs;
   std::optional<double> inflation_pressure;      ///< [Pa]; absent: rigid
-  std::optional<double> carcass_pressure;        ///< [Pa] pressure that the carcass itself carries (Wong's p_c)
+  std::optional<Estimate> carcass_pressure;      ///< [Pa] pressure that the carcass itself carries (Wong's p_c)
   std::string source{};                          ///< where the wheel as a whole is described
   std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "lugs.height"
 };
@@ -42,6 +48,13 @@ struct Tire {
 inline double outer_radius(const Tire& tire) { return tire.radius + tire.lugs.height; }
 
 inline bool is_lugged(const Tire& tire) { return tire.lugs.height > 0.0; }
+
+/// The tire as it rolls at a condition: with that condition's inflation pressure, where it tells one.
+Tire tire_at(Tire tire, const OperatingCondition& at);
+
+/// Inflation and carcass pressure together [Pa]: p_g, with which a tire presses on firm ground; nothing where the tire
+/// declares no inflation pressure.
+std::optional<double> declared_ground_pressure(const Tire& tire);
 
 /// "24 lugs of 600 mm leave no gap ..." where count and thickness ask for more than the circumference of the tread
 /// base; "" where they don't, or where either is not known.

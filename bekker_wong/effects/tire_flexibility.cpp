@@ -28,12 +28,14 @@
 namespace soilbin::bekker_wong {
 namespace {
 
-constexpr Presumption carcass_pressure = {.key = "carcass_pressure",
-                                          .name = "carcass pressure",
-                                          .unit = "kPa",
-                                          .rule = "0 kPa",
-                                          .declared = [](const Tire& t) { return t.carcass_pressure; },
-                                          .presumed = [](const Tire&) { return 0.0; }};
+constexpr Presumption carcass_pressure = {
+    .key = "carcass_pressure",
+    .name = "carcass pressure",
+    .unit = "kPa",
+    .rule = "0 kPa",
+    .declared =
+        [](const Tire& t) { return t.carcass_pressure ? std::optional(t.carcass_pressure->value) : std::nullopt; },
+    .presumed = [](const Tire&) { return 0.0; }};
 
 /// A tire without any pressure carries nothing: 0 says no more than silence.
 constexpr Presumption inflation_pressure = {.key = "inflation_pressure",

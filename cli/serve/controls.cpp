@@ -67,6 +67,11 @@ std::optional<double> usual_value(const std::string& key, double radius) {
   return std::nullopt;
 }
 
+std::optional<double> value_of(const std::optional<double>& number) { return number; }
+std::optional<double> value_of(const std::optional<Estimate>& estimate) {
+  return estimate ? std::optional(estimate->value) : std::nullopt;
+}
+
 /// Adds a control for each number of `from`; `usual` [SI] as of slider_over.
 template <class T>
 void add_numbers(Json& to, const T& from, const char* group, const std::string& prefix, double usual, double radius) {
@@ -79,13 +84,15 @@ void add_numbers(Json& to, const T& from, const char* group, const std::string& 
       const double per_si = compare::per_unit(unit);
       to.push_back(control_json(group, flag, meaning, unit, read_in(value, unit),
                                 slider_over(limits.range, per_si, value * per_si, usual * per_si)));
-    } else if constexpr (std::is_same_v<Value, std::optional<double>>) {
+    } else if constexpr (std::is_same_v<Value, std::optional<double>> ||
+                         std::is_same_v<Value, std::optional<Estimate>>) {
       const std::optional<double> start = usual_value(key, radius);
       if (!start) return;
       const std::string unit = shown_unit(limits.unit);
       const double per_si = compare::per_unit(unit);
-      to.push_back(control_json(group, flag, meaning, unit, value ? Json(read_in(*value, unit)) : Json(nullptr),
-                                slider_over(limits.range, per_si, value.value_or(0.0) * per_si, *start * per_si)));
+      const std::optional<double> given = value_of(value);
+      to.push_back(control_json(group, flag, meaning, unit, given ? Json(read_in(*given, unit)) : Json(nullptr),
+                                slider_over(limits.range, per_si, given.value_or(0.0) * per_si, *start * per_si)));
     } else if constexpr (std::is_same_v<Value, std::optional<int>> && std::is_same_v<T, Lugs>) {
       to.push_back(control_json(group, flag, meaning, "", value ? Json(*value) : Json(nullptr),
                                 {static_cast<double>(limits), 60.0, 1.0}));

@@ -71,6 +71,22 @@ std::vector<Competitor> competitors(const Candidates& candidates) {
   return all;
 }
 
+const WeightedSet* next_standing(const Candidates& candidates, const std::set<std::string>& best) {
+  const auto next =
+      std::ranges::find_if(candidates.sets, [&](const WeightedSet& w) { return w.weight > 0 && w.ids != best; });
+  return next == candidates.sets.end() ? nullptr : &*next;
+}
+
+double lead(const Candidates& candidates) {
+  const WeightedSet& best = candidates.weighed(candidates.models[*candidates.best].ids);
+  double behind = candidates.base_log_evidence;
+  for (const WeightedSet& w : candidates.sets)
+    if (w.weight > 0 && w.ids != best.ids) behind = std::max(behind, w.log_evidence);
+  return best.log_evidence - behind;
+}
+
+bool is_settled(const Candidates& candidates) { return lead(candidates) > std::log(thresholds::excluded_odds); }
+
 std::vector<WeightedSet> ambiguity_set(const Candidates& candidates) {
   std::vector<WeightedSet> sets;
   double total = 0.0;

@@ -127,7 +127,8 @@ std::optional<ChosenCandidate> settle(Attribution& found, const AttributionOptio
 
 std::optional<std::string> too_small(const Campaign& campaign, const Observations& observations) {
   const int values = static_cast<int>(observations.cells.size());
-  const int free = free_parameters(campaign.soil);
+  const int free =
+      free_parameters(campaign.soil) + (bekker_wong::errs_by_carcass(campaign.wheel, campaign.effects) ? 1 : 0);
   if (values - free >= thresholds::min_spare_values && observations.blocks() >= thresholds::min_conditions)
     return std::nullopt;
   return fmt::format("{} measured values of {} are too few for {} soil values", values,

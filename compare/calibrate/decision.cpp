@@ -162,6 +162,7 @@ std::vector<Setpoint> setpoints_of(const Campaign& campaign) {
     Setpoint setpoint{one.sum, one.runs, {}};
     setpoint.at.load /= one.runs, setpoint.at.slip /= one.runs, setpoint.at.speed /= one.runs;
     setpoint.at.moisture.reset(), setpoint.at.position.reset(), setpoint.at.run.reset();
+    setpoint.at.inflation_pressure.reset();
     bool any = false;
     for (std::size_t c = 0; c < channel_views.size(); ++c)
       if (const Cells& cells = one.cells[c]; cells.count > 0)

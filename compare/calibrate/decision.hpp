@@ -19,7 +19,7 @@ using OfChannels = std::array<T, channel_views.size()>;
 
 /// What a campaign measured at one condition.
 struct Setpoint {
-  OperatingCondition at;  ///< means of its runs; moisture, position and run, which grains don't know, left out
+  OperatingCondition at;  ///< means of its runs, without what grains don't know: moisture, position, run, pressure
   int runs = 0;           ///< that the campaign made there
   OfChannels<std::optional<Estimate>> measured;  ///< means [SI]; the error is the mean's, from all re-runs of the
                                                  ///< campaign, and 0 where it has none

@@ -16,18 +16,21 @@
 namespace soilbin::compare {
 namespace {
 
-void check_wheel(const Tire& measured, const Tire& asked, const std::string& campaign) {
+void check_wheel(const Campaign& campaign, const Tire& asked) {
+  const Tire& measured = campaign.wheel;
   constexpr double same = 0.05;
   const auto differ = [](double a, double b) { return std::abs(a - b) > same * b; };
   const bool lugs =
       differ(measured.lugs.height, asked.lugs.height) ||
       (is_lugged(asked) && measured.lugs.count && asked.lugs.count && *measured.lugs.count != *asked.lugs.count);
+  const bool tells_pressures =
+      std::ranges::any_of(campaign.runs, [](const Run& run) { return run.at.inflation_pressure.has_value(); });
   if (!lugs && !differ(measured.radius, asked.radius) && !differ(measured.width, asked.width) &&
-      !differ(measured.inflation_pressure.value_or(0.0), asked.inflation_pressure.value_or(0.0)))
+      (tells_pressures || !differ(measured.inflation_pressure.value_or(0.0), asked.inflation_pressure.value_or(0.0))))
     return;
   throw InputError(
       fmt::format("campaign '{}' measured {}, the study asks of {}\n  hint: a study with the campaign's wheel",
-                  campaign, in_words(measured), in_words(asked)));
+                  campaign.name, in_words(measured), in_words(asked)));
 }
 
 /// A run's condition with its slip as another condition tells it.
@@ -37,6 +40,19 @@ OperatingCondition as_defined_by(OperatingCondition run, const OperatingConditio
   return run;
 }
 
+/// The same of inflation pressures: 0 where one of them tells none.
+double pressures_apart(const OperatingCondition& run, const OperatingCondition& b) {
+  if (!run.inflation_pressure || !b.inflation_pressure) return 0.0;
+  const double difference = std::abs(*run.inflation_pressure - *b.inflation_pressure);
+  return difference == 0.0 ? 0.0 : difference / (near_load * *b.inflation_pressure);
+}
+
+/// A condition with its tire's own inflation pressure where it tells none.
+OperatingCondition pumped(OperatingCondition at, const Tire& tire) {
+  if (!at.inflation_pressure) at.inflation_pressure = tire.inflation_pressure;
+  return at;
+}
+
 /// How far a run is from a condition, in units of what counts as near; above 1: not near.
 double apart(const OperatingCondition& run, const OperatingCondition& b) {
   if (run.pass != b.pass) return std::numeric_limits<double>::infinity();
@@ -44,7 +60,7 @@ double apart(const OperatingCondition& run, const OperatingCondition& b) {
   return std::max({std::abs(a.load - b.load) / (near_load * b.load), std::abs(a.slip - b.slip) / near_slip,
                    std::abs(a.longitudinal_incline - b.longitudinal_incline) / near_angle,
                    std::abs(a.transverse_incline - b.transverse_incline) / near_angle,
-                   std::abs(a.yaw - b.yaw) / near_angle});
+                   std::abs(a.yaw - b.yaw) / near_angle, pressures_apart(a, b)});
 }
 
 /// A run with its slip and forces as the condition tells them; without forces that can't be turned.
@@ -69,12 +85,12 @@ struct SortedRuns {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 };
 
-SortedRuns sorted(const Campaign& campaign, const std::vector<OperatingCondition>& conditions) {
+SortedRuns sorted(const Campaign& campaign, const std::vector<OperatingCondition>& conditions, const Tire& asked) {
   SortedRuns sorted;
   for (const Run& run : campaign.runs) {
-    const auto nearest = std::ranges::min_element(
-        conditions, [&](const auto& a, const auto& b) { return apart(run.at, a) < apart(run.at, b); });
-    const bool counts = nearest != conditions.end() && apart(run.at, *nearest) <= 1.0;
+    const auto away = [&, at = pumped(run.at, campaign.wheel)](const auto& a) { return apart(at, pumped(a, asked)); };
+    const auto nearest = std::ranges::min_element(conditions, {}, away);
+    const bool counts = nearest != conditions.end() && away(*nearest) <= 1.0;
     sorted.asked.push_back(nearest == conditions.end() ? run : as_asked(run, *nearest));
     sorted.condition.push_back(counts ? static_cast<std::size_t>(nearest - conditions.begin()) : SortedRuns::none);
   }
@@ -159,9 +175,9 @@ SidePoint measured_point(const std::vector<const Run*>& runs, const OperatingCon
 }  // namespace
 
 Side side_of(const Campaign& campaign, const Case& question) {
-  check_wheel(campaign.wheel, question.scenario.tire, campaign.name);
+  check_wheel(campaign, question.scenario.tire);
   const std::vector<OperatingCondition>& conditions = question.study.conditions;
-  const SortedRuns runs = sorted(campaign, conditions);
+  const SortedRuns runs = sorted(campaign, conditions, question.scenario.tire);
   Side side{campaign.name + " (measured)", SideKind::measured, {}};
   side.noise = rerun_noise(setpoints_of(campaign, runs));
   for (std::size_t i = 0; i < conditions.size(); ++i) {

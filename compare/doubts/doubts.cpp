@@ -121,14 +121,15 @@ std::string too_flat(const Scenario& scenario, const Answer& answer) {
 /// A tire that is asked as a rigid wheel and would flatten: what the default form of tire_flexibility makes of it.
 std::string taken_as_rigid(const Scenario& scenario, const Answer& answer) {
   constexpr double hardly = 0.01;  // of the load
-  const Tire& tire = scenario.tire;
+  const Tire tire = tire_at(scenario.tire, answer.at);
   if (!tire.inflation_pressure || is_flexible(scenario)) return "";
   Scenario flexible = scenario;
   flexible.effects.push_back({"tire_flexibility", "", {}});
   const bekker_wong::BekkerWong model({.errors = false, .patch = false});
   const Answer asked = std::isfinite(answer.result->entry_angle) ? answer : ask(model, scenario, answer.at);
   if (!asked.result) return "";  // of a drive, where it is at no steady state
-  const double rigid = asked.result->drawbar_pull.value, carcass = tire.carcass_pressure.value_or(0.0);
+  const double rigid = asked.result->drawbar_pull.value,
+               carcass = *declared_ground_pressure(tire) - *tire.inflation_pressure;
   const std::string pressure = fmt::format("the tire flattens at {} (inflation {:.4g} kPa, carcass {:.4g} kPa)",
                                            in_words(answer.at), *tire.inflation_pressure / 1000, carcass / 1000);
   const Answer flattened = ask(model, flexible, answer.at);
@@ -233,6 +234,14 @@ Warnings doubts_of_learned(const Case& question) {
   return once_each(words);
 }
 
+/// The tire at the condition that tells the least of its pressure.
+Tire least_told(const Case& question) {
+  const std::vector<OperatingCondition>& all = question.study.conditions;
+  const auto silent = std::ranges::find_if(all, [](const auto& at) { return !at.inflation_pressure; });
+  if (silent != all.end() || all.empty()) return question.scenario.tire;
+  return tire_at(question.scenario.tire, all.front());
+}
+
 /// What is declared and has no influence, and what has influence and is not declared.
 Warnings doubts_of_declarations(const Case& question) {
   Warnings words;
@@ -241,7 +250,7 @@ Warnings doubts_of_declarations(const Case& question) {
   std::vector<EffectChoice> effects;
   for (const ModelChoice& model : question.study.models)
     effects.insert(effects.end(), model.effects.begin(), model.effects.end());
-  append(words, bekker_wong::presumptions(effects, question.scenario.tire));
+  append(words, bekker_wong::presumptions(effects, least_told(question)));
   const std::optional<SemiEmpiricalSoil>& soil = question.scenario.soil.semi_empirical;
   const bool asks_wheel = asks(question.study, ModelKind::bekker_wong);
   const auto is_typed = [&](const char* value) { return soil && is_from_command_line(*soil, value); };
@@ -327,9 +336,24 @@ DoubtsBeforeFit doubts_of(const Campaign& campaign, const Case& question, const 
   return {warnings, columns};
 }
 
+/// A carcass pressure that a declared effect reads and no fit may move: nobody measures one.
+void add_doubt_of_exact_carcass(const Campaign& campaign, Warnings& warnings) {
+  const auto reads = std::ranges::find_if(campaign.effects, [](const EffectChoice& effect) {
+    return depends_on(bekker_wong::find_form(effect), carcass_pressure_key);
+  });
+  if (reads == campaign.effects.end() || bekker_wong::errs_by_carcass(campaign.wheel, campaign.effects)) return;
+  const double value = campaign.wheel.carcass_pressure.value_or(Estimate{}).value;
+  warnings.push_back(
+      fmt::format("effect {} reads the carcass pressure, and {:.4g} kPa count as exact: what that is off is blamed on "
+                  "whatever looks like it; give it an sd, carcass_pressure: {{value: {:.4g} kPa, sd: ...}}",
+                  reads->id, value / 1000, value / 1000));
+}
+
 DoubtsBeforeFit doubts_as_declared(const Campaign& campaign, NextIs next) {
   const Case question = question_of(campaign, scenario_of(campaign));
-  return doubts_of(campaign, question, quick_answers(question), Answered::no, next);
+  DoubtsBeforeFit doubts = doubts_of(campaign, question, quick_answers(question), Answered::no, next);
+  add_doubt_of_exact_carcass(campaign, doubts.all);
+  return doubts;
 }
 
 }  // namespace

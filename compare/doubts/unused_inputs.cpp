@@ -52,9 +52,12 @@ const std::vector<Declared>& declarable() {
   static const std::vector<Declared> all = {
       {"lugs", "lugs are ignored: add {}", "", "",
        [](const Case& question) { return is_lugged(question.scenario.tire); }},
-      {"inflation_pressure", "the inflation pressure is ignored: add {}",
+      {"inflation_pressure", "the inflation pressure is ignored: add {} (estimate, explain, limits and run do)",
        "the inflation pressure is ignored: grains meet a rigid tire", "",
-       [](const Case& question) { return question.scenario.tire.inflation_pressure.has_value(); }},
+       [](const Case& question) {
+         return question.scenario.tire.inflation_pressure.has_value() ||
+                any_condition(question, [](const OperatingCondition& at) { return at.inflation_pressure.has_value(); });
+       }},
       {"carcass_pressure", "the carcass pressure is ignored: add {}",
        "the carcass pressure is ignored: grains meet a rigid tire", "",
        [](const Case& question) {

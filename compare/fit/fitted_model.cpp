@@ -73,8 +73,17 @@ SemiEmpiricalSoil FittedModel::soil() const {
   SemiEmpiricalSoil soil = data_->campaign->soil;
   const VectorXd errors = errors_held_or_free();
   for (int i = 0; i < predictor_.soil_parameters(); ++i)
-    soil.*soil_parameter(predictor_.parameters()[i].name).value = {fit_.theta[i], errors[i]};
+    if (const std::string& name = predictor_.parameters()[i].name; name != carcass_pressure_key)
+      soil.*soil_parameter(name).value = {fit_.theta[i], errors[i]};
   return soil;
+}
+
+Tire FittedModel::wheel() const {
+  Tire wheel = predictor_.wheel(fit_.theta);
+  const VectorXd errors = errors_held_or_free();
+  for (int i = 0; i < predictor_.soil_parameters(); ++i)
+    if (predictor_.parameters()[i].name == carcass_pressure_key) wheel.carcass_pressure->std_error = errors[i];
+  return wheel;
 }
 
 std::vector<FittedError> FittedModel::errors() const {

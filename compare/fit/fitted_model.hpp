@@ -70,6 +70,8 @@ class FittedModel {
   Eigen::VectorXd contribution(int term) const;
   /// The campaign's soil with the fitted values and their standard errors.
   SemiEmpiricalSoil soil() const;
+  /// The campaign's wheel, with the fitted carcass pressure and its standard error where that is free.
+  Tire wheel() const;
   /// The parameters that no bound holds, and how they err together; effects named as among the campaign's and the
   /// terms', in this order.
   std::vector<FittedError> errors() const;

@@ -26,20 +26,23 @@ namespace {
 /// What makes two unlabelled runs re-runs of one setpoint: every stated condition, to the digit.
 auto fingerprint(const OperatingCondition& at) {
   return std::make_tuple(at.load, at.slip, at.speed, at.longitudinal_incline, at.transverse_incline, at.yaw, at.pass,
-                         at.moisture.value_or(0.0), at.position.value_or(0.0));
+                         at.moisture.value_or(0.0), at.position.value_or(0.0), at.inflation_pressure.value_or(-1.0));
 }
 
 constexpr double widest_slip = 0.015;  // of a block
 
 /// Whether two conditions may be one setpoint, read twice by instruments.
 bool may_be_one(const OperatingCondition& a, const OperatingCondition& b) {
-  constexpr double load_share = 0.05, slip = widest_slip, speed_share = 0.1, angle = 0.5 * degree, moisture = 0.005;
+  constexpr double load_share = 0.05, slip = widest_slip, speed_share = 0.1, angle = 0.5 * degree, moisture = 0.005,
+                   pressure_share = 0.05;
   const auto near = [](double x, double y, double within) { return std::abs(x - y) <= within; };
   return near(a.load, b.load, load_share * a.load) && near(a.slip, b.slip, slip) &&
          near(a.speed, b.speed, speed_share * std::abs(a.speed)) && a.pass == b.pass &&
          near(a.longitudinal_incline, b.longitudinal_incline, angle) &&
          near(a.transverse_incline, b.transverse_incline, angle) && near(a.yaw, b.yaw, angle) &&
-         near(a.moisture.value_or(0.0), b.moisture.value_or(0.0), moisture);
+         near(a.moisture.value_or(0.0), b.moisture.value_or(0.0), moisture) &&
+         near(a.inflation_pressure.value_or(0.0), b.inflation_pressure.value_or(0.0),
+              pressure_share * a.inflation_pressure.value_or(0.0));
 }
 
 /// Blocks begin with the condition of least slip that has none and take what is near that one. No chain of neighbours

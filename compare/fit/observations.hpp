@@ -65,7 +65,8 @@ Observations without_cells(const Observations& all, const std::vector<bool>& dro
 /// The cells in the order in which the runs were made, where every row tells its own; else as the file has them.
 std::vector<Eigen::Index> cells_in_order_of_runs(const Observations& observations);
 
-/// Every covariate that takes at least two values: slip, load, speed, pass, position, moisture, run, inclines, yaw.
+/// Every covariate that takes at least two values: slip, load, speed, pass, inflation pressure,
+/// position, moisture, run, inclines, yaw.
 std::vector<Covariate> covariates(const Observations& observations);
 
 }  // namespace soilbin::compare

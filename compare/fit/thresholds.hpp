@@ -210,6 +210,15 @@ inline constexpr int max_passes = 12;
 /// Odds at which the sets that a next run would separate count as separated, where the verdict is 'unknown' [-].
 /// Chosen.
 inline constexpr double settled_odds = 100.0;
+/// Odds of the best set over another one from which that one is excluded, and no run is proposed against it [-].
+/// Chosen.
+inline constexpr double excluded_odds = 1e4;
+/// Expected runs to a decision up to which a next test keeps to the range that was run, where the rig's is not given.
+/// Chosen.
+inline constexpr double few_runs = 3.0;
+/// Where the pressure of a tire is taken to go: shares of the declared one [-]. Chosen: let out for soft ground, pumped
+/// up for the road.
+inline constexpr double lowest_pressure_share = 0.5, highest_pressure_share = 1.25;
 /// Runs beyond which a condition is not proposed. Chosen.
 inline constexpr double max_runs = 50.0;
 /// ln evidence by which a candidate at the very edge of the set still has to fall [-]; what one counts for, however

@@ -73,6 +73,13 @@ bool all_finite(const bekker_wong::Reading& r) {
 
 }  // namespace
 
+DeclaredValueWords words_of_declared(std::string_view name) {
+  if (name == carcass_pressure_key)
+    return {"p_c", "carcass pressure p_c", "kPa", 1e-3, "pressure that the tire's carcass itself carries"};
+  const SoilParameter& p = soil_parameter(name);
+  return {p.symbol, p.title, p.unit, p.per_si, p.meaning};
+}
+
 double channel_of(const bekker_wong::Reading& reading, int channel) {
   return reading.*bekker_wong::reading_members.at(channel);
 }
@@ -128,6 +135,12 @@ WheelPredictor::WheelPredictor(const Campaign& campaign, const Observations& obs
     soil_members_.push_back(bekker_wong::soil_members[i]);
     parameters_.push_back(
         {parameter.name, declared.value, declared.std_error, bounds.lower, bounds.upper, declared.std_error});
+  }
+  frees_carcass_ = bekker_wong::errs_by_carcass(campaign.wheel, campaign.effects);
+  if (frees_carcass_) {
+    const Estimate& declared = *campaign.wheel.carcass_pressure;
+    parameters_.push_back(
+        {carcass_pressure_key, declared.value, declared.std_error, 0.0, unbounded, declared.std_error});
   }
   for (const Term& term : terms_) {
     first_of_term_.push_back(static_cast<int>(parameters_.size()));
@@ -191,6 +204,12 @@ SoilValues WheelPredictor::soil(const Eigen::VectorXd& theta) const {
   return values;
 }
 
+Tire WheelPredictor::wheel(const Eigen::VectorXd& theta) const {
+  Tire wheel = campaign_->wheel;
+  if (frees_carcass_) wheel.carcass_pressure->value = theta[std::ssize(soil_members_)];
+  return wheel;
+}
+
 std::vector<double> WheelPredictor::term_values(std::size_t term, const Eigen::VectorXd& theta) const {
   std::vector<double> values = terms_[term].defaults;
   for (std::size_t k = 0; k < terms_[term].free.size(); ++k)
@@ -224,7 +243,7 @@ std::string WheelPredictor::name_among(const std::vector<EffectChoice>& choices,
 }
 
 RollingWheel WheelPredictor::wheel_at(const Eigen::VectorXd& theta) const {
-  return {campaign_->wheel, soil(theta), effects(theta), campaign_->bin};
+  return {wheel(theta), soil(theta), effects(theta), campaign_->bin};
 }
 
 bool WheelPredictor::predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction) const {

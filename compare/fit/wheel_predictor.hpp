@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,14 @@ struct FreeParameter {
   double upper = std::numeric_limits<double>::infinity();
   double scale = 1.0;  ///< typical size of a change [SI]
 };
+
+/// How files and people call a value that a campaign declares of the soil or of the carcass, by FreeParameter::name.
+struct DeclaredValueWords {
+  const char *symbol, *title, *unit;
+  double per_si;
+  const char* meaning;
+};
+DeclaredValueWords words_of_declared(std::string_view name);
 
 /// normal . theta <= limit: a bound, or a kink of the model beyond which theta means nothing else.
 struct Wall {
@@ -87,7 +96,8 @@ using RowWatch =
     std::function<bool(Eigen::Index first, Eigen::Index count, const Eigen::VectorXd& prediction, double shortfall)>;
 
 /// What the declared campaign and some terms predict. theta: the soil's free values in the order of soil_parameters
-/// (those declared with sd > 0), then each term's free parameters. All const members may be called from any thread.
+/// (those declared with sd > 0), the carcass pressure where it has a standard deviation and a declared effect reads it,
+/// then each term's free parameters. All const members may be called from any thread.
 class WheelPredictor {
  public:
   WheelPredictor(const Campaign& campaign, const Observations& observations, std::vector<Term> terms = {});
@@ -98,7 +108,8 @@ class WheelPredictor {
   WheelPredictor over(const Observations& runs) const { return {*campaign_, runs, terms_}; }
 
   const std::vector<FreeParameter>& parameters() const { return parameters_; }
-  int soil_parameters() const { return static_cast<int>(soil_members_.size()); }
+  /// How many of them the campaign declares: the soil's, and the carcass pressure.
+  int soil_parameters() const { return static_cast<int>(soil_members_.size()) + (frees_carcass_ ? 1 : 0); }
   const std::vector<Term>& terms() const { return terms_; }
   int rows() const { return static_cast<int>(observations_->rows.size()); }
   /// Index in theta of a term's amplitude.
@@ -132,6 +143,7 @@ class WheelPredictor {
   /// What a file calls a parameter where these choices stand (scenario/fitted_errors.hpp).
   std::string name_among(const std::vector<EffectChoice>& choices, int parameter) const;
   bekker_wong::SoilValues soil(const Eigen::VectorXd& theta) const;
+  Tire wheel(const Eigen::VectorXd& theta) const;
 
  private:
   struct Moved;
@@ -145,6 +157,7 @@ class WheelPredictor {
   std::vector<Term> terms_;
   std::vector<FreeParameter> parameters_;
   std::vector<double bekker_wong::SoilValues::*> soil_members_;
+  bool frees_carcass_ = false;
   std::vector<int> first_of_term_;
   bekker_wong::EffectList declared_;
 };

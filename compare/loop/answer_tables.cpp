@@ -190,7 +190,7 @@ Table soil_table(const LoopAnswer& answer) {
                     {true, false, false, false, true, true}};
   constexpr double hardly_less = 0.9;  // of the declared standard deviation: the data tell next to nothing
   for (const SoilShift& s : answer.soil_shifts) {
-    const SoilParameter& p = soil_parameter(s.name);
+    const DeclaredValueWords p = words_of_declared(s.name);
     const bool held = s.held;
     const bool as_declared = s.declared_sd > 0 && s.with.std_error > hardly_less * s.declared_sd;
     table.add({{p.title, p.meaning},

@@ -313,7 +313,7 @@ std::string note_on_declared_soil(const LoopAnswer& answer) {
     const FreeParameter& of = model.predictor().parameters()[i];
     const double fitted = model.fit().theta[i];
     if (!(std::abs(fitted - of.prior) > far * of.prior_sd)) continue;
-    const SoilParameter& p = soil_parameter(of.name);
+    const DeclaredValueWords p = words_of_declared(of.name);
     values.push_back(fmt::format("{} {}{} in place of {}", p.symbol, number(fitted * p.per_si), unit_behind(p.unit),
                                  number(Estimate{of.prior, of.prior_sd}, p.per_si)));
   }

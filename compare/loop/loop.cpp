@@ -271,11 +271,18 @@ std::vector<AcceptedEffect> stand_ins(const Judgement& judgement, const std::vec
   return effects_of(judgement.found.best());
 }
 
+/// The campaign's wheel, with a pressure of the runs where each of them tells one: what an effect need not presume.
+Tire as_run(const Campaign& campaign) {
+  const bool told =
+      std::ranges::all_of(campaign.runs, [](const Run& r) { return r.at.inflation_pressure.has_value(); });
+  return told && !campaign.runs.empty() ? tire_at(campaign.wheel, campaign.runs.front().at) : campaign.wheel;
+}
+
 /// An answer that says no more than why.
 LoopAnswer not_judged(const Campaign& campaign, std::string reason) {
   LoopAnswer answer;
   answer.campaign = campaign.name;
-  answer.wheel = campaign.wheel;
+  answer.wheel = as_run(campaign);
   answer.soil = campaign.soil;
   answer.reason = std::move(reason);
   return answer;
@@ -329,7 +336,7 @@ LoopAnswer answer_of(Stages made, const AttributionOptions& options, const Limit
 
   return {
       .campaign = campaign.name,
-      .wheel = campaign.wheel,
+      .wheel = as_run(campaign),
       .verdict = verdict,
       .reason = decision.judgement.reason + held_out_clause(made.validated.errors, !effects.empty(), !stand_in.empty()),
       .effects = std::move(effects),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/attribution/choice.hpp"
 #include "compare/fit/thresholds.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/measured/channels.hpp"
@@ -66,6 +67,12 @@ OperatingCondition missed_most(const LoopAnswer& answer, int channel) {
   return observations.rows[most == nullptr ? 0 : most->row];
 }
 
+/// What stands next behind the best set.
+std::string next_behind(const LoopAnswer& answer) {
+  const WeightedSet* next = next_standing(answer.found().candidates, answer.found().best().ids);
+  return named_effects(next ? next->ids : std::set<std::string>());
+}
+
 /// The run that sets the candidates apart: what to do, then why.
 std::vector<std::string> to_set_apart(const LoopAnswer& answer) {
   const NextTest& next = *answer.next;
@@ -99,6 +106,9 @@ std::vector<std::string> what_next(const LoopAnswer& answer) {
   if (answer.verdict == Verdict::unknown_effect) {
     sentences = to_show_its_shape(answer);
   } else if (!proposes_next(answer)) {
+    if (answer.verdict == Verdict::effect_found && is_settled(answer.found().candidates))
+      return {fmt::format("No further run is needed to choose the effect: the next candidate, {}, is {} less likely.",
+                          next_behind(answer), times_likelier(lead(answer.found().candidates)))};
     if (answer.ambiguity_set.size() > 1)
       return {"No condition within the limits separates these candidates in 50 runs."};
     if (answer.verdict == Verdict::effect_found && answer.ambiguity_set.size() == 1)

@@ -1,5 +1,6 @@
 // The loop's answer as a case that other commands take.
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "bekker_wong/effect.hpp"
@@ -25,10 +26,24 @@ std::vector<OperatingCondition> asked_of(const Campaign& campaign, const std::ve
     OperatingCondition at = run.at;
     if (!heard("run")) at.run.reset();
     if (!heard("position")) at.position.reset();
+    if (!heard("inflation_pressure")) at.inflation_pressure.reset();
     if (!heard("speed")) at.speed = speeds[speeds.size() / 2];
     if (seen.insert(at).second) conditions.push_back(at);
   }
   return conditions;
+}
+
+/// What the model missed of conditions left out, where that is more than noise of so many values explains.
+Misfit misfit_of(const CrossValidation& held_out) {
+  constexpr double standard_errors = 2.0;
+  Misfit misfit{};
+  for (std::size_t c = 0; c < misfit.size(); ++c) {
+    const HeldOutErrors& e = held_out.channels[c];
+    if (e.cells == 0) continue;
+    const double noise = e.noise_floor * e.noise_floor, excess = e.after * e.after - noise;
+    if (excess > standard_errors * std::sqrt(2.0 / e.cells) * noise) misfit[c] = std::sqrt(excess);
+  }
+  return misfit;
 }
 
 }  // namespace
@@ -41,6 +56,7 @@ Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
   model.source = source_of_fit(campaign.name);
   model.scenario = scenario_of(campaign);
   model.scenario.effects.clear();
+  if (answer.judgement) model.scenario.tire = answer.model().wheel();
   model.scenario.tire.name = campaign.name + "-wheel";
   model.scenario.soil.name = campaign.name + "-soil";
   model.scenario.soil.semi_empirical = answer.soil;
@@ -52,10 +68,10 @@ Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
   for (const AcceptedEffect& effect : answer.taken()) choice.effects.push_back(effect.choice);
   model.description = "Made by soilbin loop: " + verdict_sentence(answer);
   if (const std::string stand_in = stand_in_sentence(answer); !stand_in.empty()) model.description += " " + stand_in;
-  for (const std::string& sentence : bekker_wong::presumptions(choice.effects, campaign.wheel))
+  for (const std::string& sentence : bekker_wong::presumptions(choice.effects, answer.wheel))
     model.description += " " + sentence;
   choice.label = "fitted";
-  if (answer.judgement) choice.errors = answer.model().errors();
+  if (answer.judgement) choice.errors = answer.model().errors(), choice.misfit = misfit_of(answer.validation);
   model.study.models = {choice};
   model.study.conditions = asked_of(campaign, choice.effects);
   return model;

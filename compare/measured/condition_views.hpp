@@ -43,11 +43,11 @@ constexpr auto set_optional = [](OperatingCondition& at, double value) { at.*mem
 }  // namespace condition_members
 
 /// Those that a rig sets, then the order of the runs.
-inline constexpr std::array<ConditionView, 10> condition_views = [] {
+inline constexpr std::array<ConditionView, 11> condition_views = [] {
   using C = OperatingCondition;
   namespace m = condition_members;
   constexpr Range slips{.lower = -1.0, .upper = 1.0}, passes{.lower = 1.0};
-  return std::array<ConditionView, 10>{{
+  return std::array<ConditionView, 11>{{
       {"slip", "slip", "%", 100.0, "slip", "-", slips, false, m::get<&C::slip>, m::set<&C::slip>},
       {"load", "load", "N", 1.0, "load_N", "N", above_zero, false, m::get<&C::load>, m::set<&C::load>},
       {"pass", "pass", "", 1.0, "pass", "-", passes, true, [](const C& at) { return static_cast<double>(at.pass); },
@@ -58,6 +58,8 @@ inline constexpr std::array<ConditionView, 10> condition_views = [] {
       {"transverse_incline", "cross slope", "deg", 1 / degree, "transverse_incline_deg", "deg", inclines, false,
        m::get<&C::transverse_incline>, m::set<&C::transverse_incline>},
       {"speed", "speed", "m/s", 1.0, "speed_m_s", "m/s", zero_or_more, false, m::get<&C::speed>, m::set<&C::speed>},
+      {"inflation_pressure", "inflation pressure", "kPa", 1e-3, "inflation_pressure_kPa", "kPa", zero_or_more, false,
+       m::get_optional<&C::inflation_pressure>, m::set_optional<&C::inflation_pressure>},
       {"position", "position", "m", 1.0, "position_m", "m", any_value, false, m::get_optional<&C::position>,
        m::set_optional<&C::position>},
       {"moisture", "moisture", "%", 100.0, "moisture_percent", "%", fractions, false, m::get_optional<&C::moisture>,

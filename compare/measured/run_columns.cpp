@@ -60,8 +60,8 @@ std::vector<RunColumn> make_columns() {
   all.push_back(condition("run"));
   all.push_back({.quantity = "setpoint", .canonical = "setpoint", .content = Content::label});
   for (const char* name : {"load", "slip"}) all.push_back(required_condition(name));
-  for (const char* name :
-       {"speed", "pass", "position", "moisture", "longitudinal_incline", "transverse_incline", "yaw"})
+  for (const char* name : {"speed", "pass", "inflation_pressure", "position", "moisture", "longitudinal_incline",
+                           "transverse_incline", "yaw"})
     all.push_back(condition(name));
   all.push_back({.quantity = "rotation",
                  .canonical = "rotation_rpm",

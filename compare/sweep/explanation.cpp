@@ -215,12 +215,12 @@ std::vector<Step> result_steps(const Facts& f, const TractionResult& result) {
   return steps;
 }
 
-std::vector<Step> effect_steps(const Scenario& scenario) {
+std::vector<Step> effect_steps(const Scenario& scenario, const OperatingCondition& at) {
   std::vector<Step> steps;
   for (const EffectChoice& choice : scenario.effects) {
     const EffectForm& form = bekker_wong::find_form(choice);
     Step step{choice.id + " (" + form.form + ")", form.equation, "", 0.0, "", form.source};
-    for (const std::string& sentence : bekker_wong::presumptions({choice}, scenario.tire))
+    for (const std::string& sentence : bekker_wong::presumptions({choice}, tire_at(scenario.tire, at)))
       step.remark += "; " + sentence.substr(0, sentence.size() - 1);
     for (const EffectParameter& p : form.parameters) {
       const auto given = choice.parameters.find(p.name);
@@ -235,10 +235,10 @@ std::vector<Step> effect_steps(const Scenario& scenario) {
 }
 
 /// What inflation and carcass make of the pressure under the rigid wheel; `most`: the largest one of this answer.
-std::string pressure_remark(const Scenario& scenario, double critical, double most) {
-  const Tire& tire = scenario.tire;
+std::string pressure_remark(const Scenario& scenario, const OperatingCondition& at, double critical, double most) {
+  const Tire tire = tire_at(scenario.tire, at);
   if (!tire.inflation_pressure) return "the wheel is declared rigid";
-  const double carcass = tire.carcass_pressure.value_or(0.0), carried = *tire.inflation_pressure + carcass;
+  const double carried = *declared_ground_pressure(tire), carcass = carried - *tire.inflation_pressure;
   const std::string given = fmt::format("inflation {:.4g} kPa and carcass {:.4g} kPa give {:.4g} kPa",
                                         *tire.inflation_pressure / 1000, carcass / 1000, carried / 1000);
   const bool flexible = std::ranges::any_of(scenario.effects, [](const EffectChoice& effect) {
@@ -269,7 +269,7 @@ std::vector<Step> closed_forms(const Facts& f, const TractionResult& result) {
        fmt::format("{:.4g} m * k ({:.4g} m)^{:.4g} / {:.4g}", f.b, z0, n + 1, n + 1), rolling, "N",
        fmt::format("the model's compaction resistance is {:.4g} N", -f.wheel.forces.compaction)},
       {"critical ground pressure", "p_gcr = k z_0^n", fmt::format("k ({:.4g} m)^{:.4g}", z0, n), critical / 1000, "kPa",
-       pressure_remark(f.scenario, critical, largest_stress(f))},
+       pressure_remark(f.scenario, f.at, critical, largest_stress(f))},
       {"largest thrust of this soil", "c r b theta_1 + W_n tan phi",
        fmt::format("{:.4g} kPa * {:.4g} m^2 + {:.4g} N tan {:.4g} deg", soil.cohesion / 1000, area, f.normal_load,
                    soil.friction_angle / degree),
@@ -293,7 +293,7 @@ Explanation explain(const Scenario& scenario, const OperatingCondition& at) {
   append(explanation.steps, contact_steps(facts));
   append(explanation.steps, stress_steps(facts));
   append(explanation.steps, result_steps(facts, explanation.result));
-  explanation.effects = effect_steps(scenario);
+  explanation.effects = effect_steps(scenario, at);
   explanation.cross_checks = closed_forms(facts, explanation.result);
   return explanation;
 }

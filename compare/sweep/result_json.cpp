@@ -71,16 +71,21 @@ Json run_json(const PredictedRun& run) {
   return row;
 }
 
-constexpr const char* condition_columns =
-    "load_N,slip,speed_m_s,longitudinal_incline_deg,transverse_incline_deg,yaw_deg,pass,";
-
-std::string condition_cells(const OperatingCondition& at) {
-  return fmt::format("{},{},{},{},{},{},{}", at.load, at.slip, at.speed, at.longitudinal_incline / degree,
-                     at.transverse_incline / degree, at.yaw / degree, at.pass);
+/// The columns of a condition; that of the inflation pressure where any condition tells one.
+std::string condition_columns(bool with_pressure) {
+  return std::string("load_N,slip,speed_m_s,longitudinal_incline_deg,transverse_incline_deg,yaw_deg,pass,") +
+         (with_pressure ? "inflation_pressure_kPa," : "");
 }
 
-std::string csv_row(const std::string& model, const Answer& answer, const std::string& remark) {
-  std::string row = csv_cell(model) + ',' + condition_cells(answer.at);
+std::string condition_cells(const OperatingCondition& at, bool with_pressure) {
+  const std::string pressure = at.inflation_pressure ? fmt::format("{}", *at.inflation_pressure / 1000) : "";
+  return fmt::format("{},{},{},{},{},{},{}", at.load, at.slip, at.speed, at.longitudinal_incline / degree,
+                     at.transverse_incline / degree, at.yaw / degree, at.pass) +
+         (with_pressure ? "," + pressure : "");
+}
+
+std::string csv_row(const std::string& model, const Answer& answer, const std::string& remark, bool with_pressure) {
+  std::string row = csv_cell(model) + ',' + condition_cells(answer.at, with_pressure);
   if (!answer.result) return row + std::string(12, ',') + ',' + csv_cell(answer.error) + ',' + csv_cell(remark) + "\n";
   const TractionResult& r = *answer.result;
   for (const ChannelView& channel : channel_views)
@@ -177,18 +182,23 @@ Json to_json(const Prediction& prediction, const std::string& campaign) {
 }
 
 std::string study_csv(const std::vector<ModelAnswers>& study, const Remark& remark) {
-  std::string text = std::string("model,") + condition_columns;
+  const bool with_pressure = std::ranges::any_of(study, [](const ModelAnswers& model) {
+    return std::ranges::any_of(model.answers, [](const Answer& a) { return a.at.inflation_pressure.has_value(); });
+  });
+  std::string text = std::string("model,") + condition_columns(with_pressure);
   for (const TractionChannel& channel : traction_channels)
     text += column_of(channel) + "," + column_of(channel, "se") + ",";
   text += "tractive_efficiency,theta_1_deg,theta_m_deg,theta_2_deg,error,remark\n";
   for (const ModelAnswers& model : study)
     for (const Answer& answer : model.answers)
-      text += csv_row(model.choice.label, answer, remark(model.choice, answer));
+      text += csv_row(model.choice.label, answer, remark(model.choice, answer), with_pressure);
   return text;
 }
 
 std::string prediction_csv(const Prediction& prediction, const std::vector<std::string>& remarks) {
-  std::string text = std::string("run,setpoint,") + condition_columns;
+  const bool with_pressure = std::ranges::any_of(
+      prediction.runs, [](const PredictedRun& run) { return run.measured.at.inflation_pressure.has_value(); });
+  std::string text = std::string("run,setpoint,") + condition_columns(with_pressure);
   for (const TractionChannel& channel : traction_channels)
     text += fmt::format("{},{},{},", column_of(channel, "measured"), column_of(channel, "predicted"),
                         column_of(channel, "se"));
@@ -196,7 +206,7 @@ std::string prediction_csv(const Prediction& prediction, const std::vector<std::
   for (std::size_t i = 0; i < prediction.runs.size(); ++i) {
     const PredictedRun& run = prediction.runs[i];
     text += fmt::format("{},{},{},", run.run, csv_cell(run.measured.setpoint.value_or("")),
-                        condition_cells(run.measured.at));
+                        condition_cells(run.measured.at, with_pressure));
     for (const ChannelView& channel : channel_views) {
       const std::optional<double>& measured = run.measured.*channel.measured;
       text += (measured ? fmt::format("{}", *measured) : "") + ',';

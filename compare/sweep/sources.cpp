@@ -18,12 +18,16 @@ std::string source_of(const std::string& key, const std::map<std::string, std::s
   return whole.empty() ? "not stated" : whole;
 }
 
+Estimate estimate_of(double exact) { return {exact, 0.0}; }
+Estimate estimate_of(const Estimate& estimate) { return estimate; }
+
 /// The numbers of a wheel, or of its lugs, that are declared.
 template <class Part>
 void add_numbers(const Part& part, const std::string& prefix, const Tire& tire, std::vector<SourcedValue>& all) {
   each_member<Part>([&](const std::string& key, auto member, const auto& limits, const char*) {
     const std::optional number(part.*member);
-    if constexpr (std::is_arithmetic_v<typename decltype(number)::value_type>) {
+    using Number = typename decltype(number)::value_type;
+    if constexpr (std::is_arithmetic_v<Number> || std::is_same_v<Number, Estimate>) {
       std::string unit = "-";
       if constexpr (std::is_same_v<std::decay_t<decltype(limits)>, Measure>) unit = limits.unit;
       if (number)
@@ -32,7 +36,7 @@ void add_numbers(const Part& part, const std::string& prefix, const Tire& tire, 
                        .name = (prefix.empty() ? "" : "lug ") + spaced(key),
                        .unit = unit,
                        .per_si = per_unit(unit),
-                       .value = {static_cast<double>(*number), 0.0},
+                       .value = estimate_of(*number),
                        .source = source_of(prefix + key, tire.sources, tire.source)});
     }
   });

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "bekker_wong/presumption.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/condition_axes.hpp"
 #include "scenario/description.hpp"
@@ -39,6 +40,8 @@ const std::vector<ConditionAxis>& axes() {
       {condition_view("transverse_incline"), [](double x) { return angle("cross slope", x); }, 0.0, 2 * degree},
       {condition_view("yaw"), [](double x) { return angle("yaw", x); }, 0.0, 2 * degree},
       {condition_view("pass"), [](double x) { return fmt::format("pass {:g}", x); }, 0.0, 0.5},
+      {condition_view("inflation_pressure"), [](double x) { return fmt::format("inflation {:.4g} kPa", x / 1000); },
+       0.05, 2e3},
       {condition_view("moisture"), [](double x) { return fmt::format("moisture {:.3g} %", 100 * x); }, 0.25, 0.01},
       {condition_view("speed"), [](double x) { return fmt::format("{:.4g} m/s", x); }, 0.25, 0.0, true},
   };
@@ -175,11 +178,13 @@ std::string errors_in_words(const Scenario& asked) {
     const Estimate& value = s.*p.value;
     add(has_assumed_sd(s, value) ? assumed : value.std_error > 0.0 ? declared : exact, p.symbol);
   }
-  const std::string together =
+  if (bekker_wong::errs_by_carcass(asked.tire, asked.effects)) add(declared, "p_c");
+  std::string together =
       asked.errors.empty() ? "" : " The model's fit says how values of the soil and of its effects err together.";
+  if (const double missed = asked.misfit.front(); missed > 0.0)
+    together += fmt::format(" It holds the fit's own misfit, in the drawbar pull {}.", newtons(missed));
   if (declared.empty() && assumed.empty())
-    return asked.errors.empty() ? "No ±: all values of the soil count as exact."
-                                : "± is one standard error." + together;
+    return together.empty() ? "No ±: all values of the soil count as exact." : "± is one standard error." + together;
   std::string text = "± is one standard error from the standard deviations of ";
   if (!declared.empty()) text += declared + (assumed.empty() ? "" : " (declared) and ");
   if (!assumed.empty()) text += fmt::format("{} (assumed: {:g} %, no source)", assumed, 100 * *s.assumed_sd);

@@ -16,7 +16,7 @@ enum class Spread { exact, measured };
 inline const ConditionView& slip_view() { return condition_view("slip"); }
 
 /// Slip, where two conditions that agree in all else differ in it; else the first of load, inclines, yaw, pass,
-/// moisture and speed of which that is so; null where it is so of none.
+/// inflation pressure, moisture and speed of which that is so; null where it is so of none.
 const ConditionView* curves_run_over(const std::vector<OperatingCondition>& conditions);
 
 /// Conditions sorted into curves.
@@ -26,9 +26,9 @@ struct Curves {
   std::string varying;                ///< what tells the curves apart, for a heading: "load, yaw"; "" for one curve
 };
 
-/// Sorts by load, inclines, yaw, pass, moisture and slip, whichever the curves don't run over, and by speed where that
-/// tells conditions of one slip apart. Measured loads count as one where neighbours lie within 25 %, angles within 2
-/// deg.
+/// Sorts by load, inclines, yaw, pass, inflation pressure, moisture and slip, whichever the curves don't run over, and
+/// by speed where that tells conditions of one slip apart. Measured loads count as one where neighbours lie within 25
+/// %, angles within 2 deg.
 Curves curves_against(const ConditionView& abscissa, const std::vector<OperatingCondition>& conditions, Spread spread);
 inline Curves curves_against_slip(const std::vector<OperatingCondition>& conditions, Spread spread) {
   return curves_against(slip_view(), conditions, spread);

@@ -305,15 +305,20 @@ Json to_json(const WheelLimits& answer) {
 
 std::string limits_csv(const std::vector<WheelLimits>& answers, const std::vector<ModelAnswers>& at_limits,
                        const Remark& remark) {
-  std::string text =
-      "model,load_N,speed_m_s,transverse_incline_deg,yaw_deg,pass,slope_deg,slip,slip_se,largest_pull_N,"
-      "largest_pull_se_N,slip_of_largest_pull,error,remark\n";
+  const bool with_pressure =
+      std::ranges::any_of(answers, [](const WheelLimits& a) { return a.at.inflation_pressure.has_value(); });
+  std::string text = std::string("model,load_N,speed_m_s,transverse_incline_deg,yaw_deg,pass,") +
+                     (with_pressure ? "inflation_pressure_kPa," : "") +
+                     "slope_deg,slip,slip_se,largest_pull_N,"
+                     "largest_pull_se_N,slip_of_largest_pull,error,remark\n";
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const WheelLimits& answer = answers[i];
     const OperatingCondition& at = answer.at;
+    const std::string pressure = at.inflation_pressure ? csv_number(*at.inflation_pressure / 1000) : "";
     const std::string asked = fmt::format("{},{},{},{},{},{}", csv_cell(answer.model.label), at.load,
                                           answer.at_every_speed ? "" : fmt::format("{}", at.speed),
-                                          at.transverse_incline / degree, at.yaw / degree, at.pass);
+                                          at.transverse_incline / degree, at.yaw / degree, at.pass) +
+                              (with_pressure ? "," + pressure : "");
     if (!answer.error.empty()) text += asked + ",,,,,,," + csv_cell(answer.error) + ",\n";
     for (std::size_t k = 0; k < answer.slopes.size(); ++k) {
       const SlopeRow& row = answer.slopes[k];

@@ -68,28 +68,46 @@ double squared_distance(const RunForecast& a, const RunForecast& b, const NoiseF
   return gap.dot(spread.ldlt().solve(gap));
 }
 
-/// The set that stands next behind the best one and doesn't hold it; nullptr where none was fitted.
-const WeightedSet* next_standing(const Candidates& candidates, const std::set<std::string>& best) {
-  for (const WeightedSet& w : candidates.sets)
-    if (w.weight > 0 && !std::includes(w.ids.begin(), w.ids.end(), best.begin(), best.end())) return &w;
-  return nullptr;
-}
-
-/// Who takes part, the best one first.
+/// Who takes part, the best one first; it alone where what stands behind it is excluded already.
 std::vector<Contender> contenders(const Attribution& found) {
   const Candidates& all = found.candidates;
   std::vector<Contender> contenders;
+  const double excluded = std::log(thresholds::excluded_odds);
   const auto add = [&](const WeightedSet& w, double allowed) {
     contenders.push_back({w.ids, all.models[w.best_candidate].model, w.log_evidence, allowed});
   };
-  for (const Competitor& c : competitors(all)) add(all.sets[c.set], c.allowed);
+  for (const Competitor& c : competitors(all))
+    if (contenders.empty() || contenders.front().log_evidence - all.sets[c.set].log_evidence <= excluded)
+      add(all.sets[c.set], c.allowed);
   if (contenders.size() > 1) return contenders;
   const Contender best = contenders.front();
+  if (is_settled(all)) return contenders;
   if (const WeightedSet* next = next_standing(all, best.ids))
     add(*next, best.allowed);
   else
     contenders.push_back({{}, found.base, all.base_log_evidence, best.allowed});
   return contenders;
+}
+
+/// A tire's pressure is let out or pumped up at every rig: where nothing says how far, about its declared one.
+void add_pressure(const Tire& wheel, Limits& limits) {
+  if (!wheel.inflation_pressure || !(*wheel.inflation_pressure > 0.0)) return;
+  limits.try_emplace("inflation_pressure", thresholds::lowest_pressure_share * *wheel.inflation_pressure,
+                     thresholds::highest_pressure_share * *wheel.inflation_pressure);
+}
+
+/// The limits without what reaches beyond the runs that were made, where nobody said that the rig goes there.
+Limits as_run(const Limits& limits, const Limits& given, const Observations& observations) {
+  Limits narrow = limits;
+  const Limits run = ranges_of(observations);
+  for (auto& [name, range] : narrow) {
+    if (given.contains(name)) continue;
+    if (const auto made = run.find(name); made != run.end())
+      range = made->second;
+    else if (name == "load" || name == "slip")
+      range.first = range.second = condition_view(name).get(observations.rows.front());
+  }
+  return narrow;
 }
 
 /// Names of the conditions that lie outside what was run.
@@ -206,12 +224,20 @@ std::optional<NextTest> next_test(const Attribution& found, const Limits& given)
   const Dataset& data = found.base.data();
   Limits limits = given;  // what is given comes before what the campaign spans
   limits.merge(limits_of(data.observations));
-  const Contest contest(contenders(found), data.noise);
-  ConditionSearch search(contest);
-  for (const OperatingCondition& at : grid(data.observations, limits)) search.ask(at);
-  refine(search, limits);
-  if (!search.best() || search.best()->second.runs > thresholds::max_runs) return std::nullopt;
-  const auto& [at, prospect] = *search.best();
+  add_pressure(data.campaign->wheel, limits);
+  std::vector<Contender> all = contenders(found);
+  if (all.size() < 2) return std::nullopt;
+  const Contest contest(std::move(all), data.noise);
+  const auto search_within = [&](const Limits& within) {
+    ConditionSearch search(contest);
+    for (const OperatingCondition& at : grid(data.observations, within)) search.ask(at);
+    refine(search, within);
+    return search.best();
+  };
+  auto best = search_within(as_run(limits, given, data.observations));
+  if (!best || best->second.runs > thresholds::few_runs) best = search_within(limits);
+  if (!best || best->second.runs > thresholds::max_runs) return std::nullopt;
+  const auto& [at, prospect] = *best;
   NextTest next{.at = at,
                 .quantities = {},
                 .given = given,

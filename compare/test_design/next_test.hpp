@@ -27,8 +27,10 @@ struct NextTest {
 /// and Forzatti 1983, Chem. Eng. Sci. 38:225); a run adds d/2 to the ln evidence between them, and j is out where it
 /// stands further behind than allowed. On a grid, then one condition after the other on a finer one.
 /// The candidates are those that compete with the best one (competitors); where it stands by itself, the set that
-/// stands next behind it (the base model where there is none), to be surer still. limits: where nothing is given,
-/// limits_of the observations. Nothing where no condition within limits sets them apart in thresholds::max_runs.
+/// stands next behind it (the base model where there is none), to be surer still, unless that one is excluded already
+/// (is_settled): then nothing. limits: where nothing is given, what was run, and where no condition there decides in
+/// thresholds::few_runs, limits_of the observations; the pressure of a pneumatic tire about its declared one. Nothing
+/// where no condition within limits sets them apart in thresholds::max_runs.
 std::optional<NextTest> next_test(const Attribution& found, const Limits& limits);
 
 }  // namespace soilbin::compare

@@ -85,7 +85,12 @@ double rig_setting(const ConditionView& view, double value, const Observations& 
   std::vector<double> made;
   for (const OperatingCondition& at : observations.rows)
     if (const double x = view.get(at); std::isfinite(x)) made.push_back(x);
-  if (made.empty() || view.whole) return value;
+  if (view.whole) return value;
+  if (made.empty()) {
+    const double room = value_share * std::abs(value);
+    const auto round = roundest(std::max(value - room, within.first), std::min(value + room, within.second), per_si);
+    return round ? *round : value;
+  }
   std::ranges::sort(made);
   double scatter = rerun_scatter(view, observations), spread = run_share * (made.back() - made.front());
   if (scatter <= set_exactly * std::max(std::abs(made.front()), std::abs(made.back()))) scatter = 0.0;

@@ -57,6 +57,11 @@ class FieldsOf {
   void number(const char* key, Estimate T::*member, const Measure& measure, Need need, const char* meaning) {
     checked<Estimate>(key, member, measure, need, meaning, [](const Estimate& x) { return std::optional(x.value); });
   }
+  void number(const char* key, std::optional<Estimate> T::*member, const Measure& measure, Need need,
+              const char* meaning) {
+    checked<std::optional<Estimate>>(key, member, measure, need, meaning,
+                                     [](const auto& x) { return x ? std::optional(x->value) : std::nullopt; });
+  }
   void exponent(const char* key, Estimate T::*member, const Range& range, Need need, const char* meaning) {
     number(key, member, Measure{"-", range}, need, meaning);
   }

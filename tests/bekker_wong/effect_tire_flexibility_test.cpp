@@ -43,6 +43,26 @@ TEST(TireFlexibility, LongerShallowerContact) {
   }
 }
 
+// A condition's inflation pressure is the tire's there, for every form and to the bit.
+TEST(TireFlexibility, RollsAtTheConditionsPressure) {
+  for (const char* form : carcass_forms) {
+    SCOPED_TRACE(form);
+    const EffectChoice choice{"tire_flexibility", form, {}};
+    OperatingCondition at = driven(800);
+    const RolledWheel own = rolled_on(choice, at, soft_tire(40e3));
+    at.inflation_pressure = 40e3;
+    for (const Tire& t : {soft_tire(), soft_tire(200e3)}) {
+      const RolledWheel told = rolled_on(choice, at, t);
+      EXPECT_EQ(told.reading.drawbar_pull, own.reading.drawbar_pull);
+      EXPECT_EQ(told.sinkage, own.sinkage);
+    }
+    EXPECT_NE(rolled_on(choice, driven(800), soft_tire(200e3)).sinkage, own.sinkage);
+  }
+  OperatingCondition sucked = driven(800);
+  sucked.inflation_pressure = -1.0;
+  EXPECT_THROW(rolled_on({"tire_flexibility", "", {}}, sucked), InputError);
+}
+
 // The cap's mark: a light wheel stays rigid, a heavy one loses a growing share of its sinkage.
 TEST(TireFlexibility, FlatSectionSparesTheLightWheel) {
   const auto lost = [](double load) {

@@ -24,7 +24,7 @@ const std::vector<Optional>& optional_values() {
       {"lugs.count", [](Tire& t, double n) { t.lugs.count = static_cast<int>(n); }, 18, 30},
       {"lugs.thickness", [](Tire& t, double s) { t.lugs.thickness = s; }, 0.002, 0.006},
       {"inflation_pressure", [](Tire& t, double p) { t.inflation_pressure = p; }, 40e3, 80e3},
-      {"carcass_pressure", [](Tire& t, double p) { t.carcass_pressure = p; }, 5e3, 20e3},
+      {"carcass_pressure", [](Tire& t, double p) { t.carcass_pressure = Estimate{p}; }, 5e3, 20e3},
   };
   return all;
 }

@@ -311,5 +311,32 @@ TEST(StandardErrors, OfAFitHoldTheEffectsParametersToo) {
   EXPECT_NEAR(sinkage(a).sinkage.std_error, std::abs(slope) * sd, 1e-4 * std::abs(slope) * sd);
 }
 
+// The carcass pressure errs beside an exact soil; nothing hears of it without an effect that reads it.
+TEST(StandardErrors, HoldTheCarcassPressures) {
+  Scenario scenario = sand_scenario();
+  for (const SoilParameter& p : soil_parameters) (soil_of(scenario).*p.value).std_error = 0.0;
+  scenario.tire.carcass_pressure = Estimate{15e3, 4e3};
+  const OperatingCondition at{.load = 800, .slip = 0.2};
+  EXPECT_EQ(BekkerWong().evaluate(scenario, at).drawbar_pull.std_error, 0.0);
+  scenario.effects = {{"tire_flexibility", "carcass_spring", {}}};
+  const auto pull = [&](double carcass) {
+    Scenario other = scenario;
+    other.tire.carcass_pressure->value = carcass;
+    return BekkerWong().evaluate(other, at).drawbar_pull.value;
+  };
+  const double h = 100, slope = (pull(15e3 + h) - pull(15e3 - h)) / (2 * h);
+  EXPECT_NEAR(BekkerWong().evaluate(scenario, at).drawbar_pull.std_error, std::abs(4e3 * slope),
+              1e-4 * std::abs(4e3 * slope));
+}
+
+// What a fit missed is a part of every answer's error.
+TEST(StandardErrors, HoldAFitsMisfit) {
+  Scenario scenario = sand_scenario();
+  const OperatingCondition at{.load = 800, .slip = 0.2};
+  const double before = BekkerWong().evaluate(scenario, at).drawbar_pull.std_error;
+  scenario.misfit = {30.0, 0.0, 0.0, 0.0};
+  EXPECT_DOUBLE_EQ(BekkerWong().evaluate(scenario, at).drawbar_pull.std_error, std::hypot(before, 30.0));
+}
+
 }  // namespace
 }  // namespace soilbin::bekker_wong

@@ -15,7 +15,7 @@ using testing::ResultOf;
 /// Lugs and inflation without an effect that hears of them, and a wheel that sinks by more than half its radius.
 constexpr const char* doubtful = R"(format: soilbin-case/1
 name: doubtful
-tire: {radius: 110 mm, width: 100 mm, inflation_pressure: 100 kPa, lugs: {height: 10 mm, count: 12, thickness: 3 mm}}
+tire: {radius: 110 mm, width: 100 mm, inflation_pressure: 400 kPa, lugs: {height: 10 mm, count: 12, thickness: 3 mm}}
 soil: dry-sand
 study:
   conditions: {load: 600 N, slip: 20 %}
@@ -23,6 +23,9 @@ study:
 
 const std::vector<std::string> expected = {"lugs are ignored", "the inflation pressure is ignored",
                                            "% of its radius at load 600 N"};
+
+/// What a command says of the pressure: those that answer for a tire take it as flexible, and say so where it flattens.
+bool answers_for_the_tire(const std::string& command) { return command != "compare --no-loop"; }
 
 TEST(DoubtsOfCommands, AreTheSameInAllOfThem) {
   const Scratch scratch;
@@ -33,6 +36,10 @@ TEST(DoubtsOfCommands, AreTheSameInAllOfThem) {
     const std::string warnings = r.json()["warnings"].dump();
     for (const std::string& doubt : expected) {
       if (doubt.find("radius") != std::string::npos && std::string(command) == "limits") continue;  // at other slips
+      if (doubt.find("inflation") != std::string::npos && answers_for_the_tire(command)) {
+        EXPECT_THAT(r.err, Not(HasSubstr(doubt))) << command;
+        continue;
+      }
       EXPECT_THAT(r.err, HasSubstr("warning: ")) << command;
       EXPECT_THAT(r.err, HasSubstr(doubt)) << command;
       EXPECT_THAT(warnings, HasSubstr(doubt)) << command;

@@ -538,5 +538,62 @@ TEST(Explain, EndsWithTheSourceOfEachValue) {
                                     {"source", "given on the command line"}}));
 }
 
+/// A truck tire of 270 kPa on soft soil.
+const std::string truck = "--tire truck-335-65r22 --soil upland-sandy-loam --load 20kN --slip 20% ";
+
+TEST(Estimate, AnswersAtSeveralInflationPressures) {
+  const Outcome r = soilbin("estimate " + truck + "--inflation-pressure 100,200,300kPa --json");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const nlohmann::json rows = r.json()["rows"];
+  ASSERT_EQ(rows.size(), 3U);
+  for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_DOUBLE_EQ(rows[i]["inflation_pressure"], 1e5 * (i + 1.0));
+  EXPECT_LT(rows[0]["sinkage"], rows[1]["sinkage"]) << "softer is shallower";
+  EXPECT_LT(rows[1]["sinkage"], rows[2]["sinkage"]);
+  const Scratch scratch;
+  const std::string plot = (scratch / "pressure.svg").string(), csv = (scratch / "pressure.csv").string();
+  const Outcome drawn =
+      soilbin("estimate " + truck + "--inflation-pressure 100..300kPa --plot '" + plot + "' --csv '" + csv + "'");
+  ASSERT_EQ(drawn.status, 0) << drawn.err;
+  EXPECT_THAT(text_of(plot), HasSubstr("inflation pressure [kPa]"));
+  EXPECT_THAT(text_of(csv), HasSubstr("inflation_pressure_kPa"));
+  // Where the tire declares the pressure, the condition that tells the same changes nothing.
+  const nlohmann::json own = soilbin("estimate " + truck + "--json").json()["rows"][0],
+                       told = soilbin("estimate " + truck + "--inflation-pressure 270kPa --json").json()["rows"][0];
+  EXPECT_EQ(own["drawbar_pull"], told["drawbar_pull"]);
+}
+
+// A tire with a declared pressure is flexible where it flattens, and the answer says so; --rigid: the rigid wheel.
+TEST(Estimate, ATireWithAPressureIsFlexibleWhereItFlattens) {
+  const std::string soft = truck + "--inflation-pressure 100kPa ";
+  for (const char* command : {"estimate ", "limits ", "explain "}) {
+    std::string flags = soft;
+    if (std::string(command) == "limits ") flags.replace(flags.find("--slip 20% "), 11, "");
+    const Outcome r = soilbin(command + flags);
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_THAT(r.err, HasSubstr("flexible where the soil presses with more than its 100 kPa")) << command;
+    EXPECT_THAT(r.err, HasSubstr("tire_flexibility")) << command;
+  }
+  const auto row = [](const std::string& flags) { return soilbin("estimate " + flags + "--json").json()["rows"][0]; };
+  const nlohmann::json flexible = row(soft), named = row(soft + "--effect tire_flexibility "),
+                       rigid = row(truck + "--rigid "), none = row(soft + "--effect none ");
+  EXPECT_EQ(flexible["drawbar_pull"], named["drawbar_pull"]);
+  EXPECT_GT(rigid["sinkage"], flexible["sinkage"]);
+  EXPECT_EQ(rigid["drawbar_pull"], none["drawbar_pull"]);
+  EXPECT_THAT(soilbin("estimate " + truck + "--rigid").err, testing::Not(HasSubstr("flexible")));
+  EXPECT_EQ(soilbin("estimate " + soft + "--rigid").status, 2);
+  EXPECT_EQ(soilbin("estimate " + truck + "--rigid --effect tire_flexibility").status, 2);
+}
+
+// What is not known of the carcass is in the standard error of a flexible tire.
+TEST(Estimate, CarcassPressureHasADeviation) {
+  const auto error = [](const std::string& carcass) {
+    return soilbin("estimate " + truck + "--inflation-pressure 60kPa --carcass-pressure " + carcass + " --json")
+        .json()["rows"][0]["std_error"]["sinkage"]
+        .get<double>();
+  };
+  EXPECT_GT(error("'40+-20 kPa'"), error("40kPa"));
+  EXPECT_GT(error("'40+-30 kPa'"), error("'40+-20 kPa'"));
+}
+
 }  // namespace
 }  // namespace soilbin::cli::test

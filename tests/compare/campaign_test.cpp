@@ -9,6 +9,7 @@
 
 #include "bekker_wong/effect_vocabulary.hpp"
 #include "compare/measured/csv.hpp"
+#include "compare/measured/run_columns.hpp"
 #include "scenario/case.hpp"
 #include "scenario/library.hpp"
 #include "scenario/soil_parameters.hpp"
@@ -392,6 +393,23 @@ TEST(Campaign, EveryMeasuredOneIsRead) {
     EXPECT_EQ(c.name, name);
     EXPECT_GE(static_cast<int>(c.runs.size()), free_parameters(c.soil)) << name;
   }
+}
+
+// A tire's pressure in each run, and what its carcass carries with what is not known of it; written, they are read
+// again.
+TEST(Campaign, HoldsInflationPressures) {
+  const std::string yaml = replaced(good_yaml, "model: {effects: []}", "model: {effects: []}");
+  const std::string csv =
+      "load_N,slip,inflation_pressure_kPa,drawbar_pull_N,torque_Nm\n"
+      "1000,0.1,150,120,30\n1000,0.2,300,122,31\n2000,0.3,,130,35\n2000,0.4,450,140,36\n";
+  Campaign c = parse(yaml, csv);
+  EXPECT_EQ(c.runs[0].at.inflation_pressure, 150e3);
+  EXPECT_FALSE(c.runs[2].at.inflation_pressure);
+  const std::string written = write_runs(c.runs);
+  EXPECT_THAT(written, testing::HasSubstr("inflation_pressure_kPa"));
+  const Campaign again = parse(yaml, written);
+  for (std::size_t i = 0; i < c.runs.size(); ++i) EXPECT_EQ(again.runs[i].at, c.runs[i].at);
+  EXPECT_THAT(refused(yaml, replaced(csv, "150", "-150")), testing::HasSubstr("out of range"));
 }
 
 }  // namespace

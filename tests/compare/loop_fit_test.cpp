@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <random>
@@ -307,6 +308,48 @@ TEST(FittedErrors, AreThoseOfTheFitWhenReadFromItsFile) {
     if (cell.channel == sinkage) largest = std::max(largest, independent.sinkage.std_error / error);
   }
   EXPECT_GT(largest, 3.0);
+}
+
+/// A pneumatic tire at three pressures, its carcass declared at 20 +- 30 kPa, where it carries 58.
+Campaign pneumatic_campaign(const std::vector<EffectChoice>& more, std::uint64_t seed) {
+  Campaign campaign = sand_campaign();
+  campaign.effects = {{"tire_flexibility", "flat_section", {}}};
+  std::vector<OperatingCondition> rows = sweep();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].inflation_pressure = std::array{10e3, 25e3, 60e3}[i / 2 % 3];
+    rows[i].pass = 1;
+  }
+  std::vector<EffectChoice> truth = campaign.effects;
+  truth.insert(truth.end(), more.begin(), more.end());
+  campaign.wheel.inflation_pressure = 25e3;
+  campaign.wheel.carcass_pressure = Estimate{58e3, 0.0};
+  measure(campaign, rows, truth, fine_noise, seed);
+  campaign.wheel.carcass_pressure = Estimate{20e3, 30e3};
+  return campaign;
+}
+
+// The carcass pressure is fitted beside the soil, told with it, and saved with the wheel.
+TEST(BaseFit, FindsTheCarcassPressure) {
+  const Campaign campaign = pneumatic_campaign({}, 5);
+  const FittedModel base = fit_base(campaign, observe(campaign), {});
+  const int last = base.predictor().soil_parameters() - 1;
+  EXPECT_EQ(base.predictor().parameters()[static_cast<std::size_t>(last)].name, "carcass_pressure");
+  const Estimate found = *base.wheel().carcass_pressure;
+  EXPECT_GT(found.std_error, 0.0);
+  EXPECT_LT(found.std_error, 10e3);
+  EXPECT_NEAR(found.value, 58e3, 3 * found.std_error);
+  const auto& errors = base.errors();
+  EXPECT_TRUE(std::ranges::any_of(errors, [](const FittedError& e) { return e.parameter == "carcass_pressure"; }));
+  EXPECT_EQ(base.soil().exponent.value, base.fit().theta[0]);
+}
+
+// Nothing hears of a carcass without the effect; nor is it free where it counts as exact.
+TEST(BaseFit, LeavesTheCarcassPressureWhereNothingReadsIt) {
+  Campaign campaign = pneumatic_campaign({}, 5);
+  const Observations runs = observe(campaign);
+  EXPECT_EQ(WheelPredictor(campaign, runs).soil_parameters(), 9);
+  campaign.effects.clear();
+  EXPECT_EQ(WheelPredictor(campaign, runs).soil_parameters(), 8);
 }
 
 }  // namespace

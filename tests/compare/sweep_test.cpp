@@ -222,5 +222,18 @@ TEST(Explanation, StepsRepeatTheResult) {
   EXPECT_NEAR(value("normal stress there"), largest / 1000, 0.01 * largest / 1000);
 }
 
+TEST(Varying, CurvesRunOverInflationPressure) {
+  std::vector<OperatingCondition> all;
+  for (const double load : {2000.0})
+    for (const double pressure : {150e3, 300e3, 450e3}) {
+      all.push_back(condition(load, 0.2));
+      all.back().inflation_pressure = pressure;
+    }
+  const ConditionView* over = curves_run_over(all);
+  ASSERT_EQ(over, &condition_view("inflation_pressure"));
+  EXPECT_EQ(curves_against(*over, all, Spread::exact).labels.size(), 1U);
+  EXPECT_EQ(in_words(all[1]), "load 2000 N, slip 20 %, inflation 300 kPa");
+}
+
 }  // namespace
 }  // namespace soilbin::compare

@@ -58,6 +58,7 @@ Tire any_tire() {
                *rc::gen::element(LugPattern::straight, LugPattern::chevron)};
   if (*rc::gen::arbitrary<bool>()) tire.lugs.count = *rc::gen::inRange(1, 100);
   if (*rc::gen::arbitrary<bool>()) tire.inflation_pressure = *between(0, 1e6);
+  if (*rc::gen::arbitrary<bool>()) tire.carcass_pressure = any_estimate(0, 1e5);
   if (*rc::gen::arbitrary<bool>()) tire.sources["lugs.height"] = "a" + *text();
   return tire;
 }
@@ -97,6 +98,7 @@ OperatingCondition any_condition() {
   at.slip_by = *rc::gen::element(SlipBy::wheel_plane_speed, SlipBy::travel_speed);
   if (*rc::gen::arbitrary<bool>()) at.moisture = *between(0, 1);
   if (*rc::gen::arbitrary<bool>()) at.run = *rc::gen::inRange(0, 100);
+  if (*rc::gen::arbitrary<bool>()) at.inflation_pressure = *between(0, 1e6);
   return at;
 }
 
@@ -105,6 +107,7 @@ ModelChoice any_model() {
   choice.label = "m" + *name();
   if (*rc::gen::arbitrary<bool>()) choice.effects.push_back({"slip_sinkage", "reece", {{"h", *between(0, 0.2)}}});
   if (*rc::gen::arbitrary<bool>()) choice.effects.push_back({"exit_angle", "unloading", {{"k_u", *between(0, 1e11)}}});
+  if (*rc::gen::arbitrary<bool>()) choice.misfit = {*between(0, 1e3), 0.0, *between(0, 0.1), *between(0, 1e3)};
   return choice;
 }
 
@@ -147,6 +150,11 @@ TEST(CaseWriter, ReadingWhatWasWrittenGivesTheSameBits) {
     RC_ASSERT(again.study.conditions.size() == c.study.conditions.size());
     RC_ASSERT(again.study.conditions[0].yaw == c.study.conditions[0].yaw);
     RC_ASSERT(again.study.conditions[0].run == c.study.conditions[0].run);
+    RC_ASSERT(again.study.conditions[0].inflation_pressure == c.study.conditions[0].inflation_pressure);
+    RC_ASSERT(again.study.models[0].misfit == c.study.models[0].misfit);
+    const auto carcass = [](const Case& of) { return of.scenario.tire.carcass_pressure.value_or(Estimate{-1, 0}); };
+    RC_ASSERT(carcass(again).value == carcass(c).value);
+    RC_ASSERT(carcass(again).std_error == carcass(c).std_error);
   }));
 }
 

@@ -115,13 +115,13 @@ class Tire:
     @inflation_pressure.setter
     def inflation_pressure(self, value: Optional[float]) -> None: ...
     @property
-    def carcass_pressure(self) -> Optional[float]:
+    def carcass_pressure(self) -> Optional[Estimate]:
         """pressure that the carcass itself carries (Wong's p_c) [Pa], at least 0 Pa"""
     @carcass_pressure.setter
-    def carcass_pressure(self, value: Optional[float]) -> None: ...
-    def __init__(self, *, name: str = ..., source: str = ..., radius: float, width: float, lugs: Lugs = ..., inflation_pressure: Optional[float] = ..., carcass_pressure: Optional[float] = ...) -> None:
+    def carcass_pressure(self, value: Optional[Estimate]) -> None: ...
+    def __init__(self, *, name: str = ..., source: str = ..., radius: float, width: float, lugs: Lugs = ..., inflation_pressure: Optional[float] = ..., carcass_pressure: Optional[Estimate] = ...) -> None:
         """By keywords: the attributes, in SI."""
-    def replace(self, *, name: str = ..., source: str = ..., radius: float = ..., width: float = ..., lugs: Lugs = ..., inflation_pressure: Optional[float] = ..., carcass_pressure: Optional[float] = ...) -> Tire:
+    def replace(self, *, name: str = ..., source: str = ..., radius: float = ..., width: float = ..., lugs: Lugs = ..., inflation_pressure: Optional[float] = ..., carcass_pressure: Optional[Estimate] = ...) -> Tire:
         """A copy in which the attributes given are changed."""
 
 class SemiEmpiricalSoil:
@@ -438,6 +438,11 @@ class OperatingCondition:
     @yaw.setter
     def yaw(self, value: float) -> None: ...
     @property
+    def inflation_pressure(self) -> Optional[float]:
+        """of the tire; absent: the tire's own [Pa], at least 0 Pa"""
+    @inflation_pressure.setter
+    def inflation_pressure(self, value: Optional[float]) -> None: ...
+    @property
     def slip_by(self) -> SlipBy:
         """the speed from which slip is computed"""
     @slip_by.setter
@@ -462,9 +467,9 @@ class OperatingCondition:
         """order in which the runs were made [-], at least 0"""
     @run.setter
     def run(self, value: Optional[int]) -> None: ...
-    def __init__(self, *, load: float, slip: float, speed: float = ..., longitudinal_incline: float = ..., transverse_incline: float = ..., yaw: float = ..., slip_by: SlipBy = ..., force_frame: ForceFrame = ..., moisture: Optional[float] = ..., position: Optional[float] = ..., run: Optional[int] = ...) -> None:
+    def __init__(self, *, load: float, slip: float, speed: float = ..., longitudinal_incline: float = ..., transverse_incline: float = ..., yaw: float = ..., inflation_pressure: Optional[float] = ..., slip_by: SlipBy = ..., force_frame: ForceFrame = ..., moisture: Optional[float] = ..., position: Optional[float] = ..., run: Optional[int] = ...) -> None:
         """By keywords: the attributes, in SI."""
-    def replace(self, *, load: float = ..., slip: float = ..., speed: float = ..., longitudinal_incline: float = ..., transverse_incline: float = ..., yaw: float = ..., slip_by: SlipBy = ..., force_frame: ForceFrame = ..., moisture: Optional[float] = ..., position: Optional[float] = ..., run: Optional[int] = ...) -> OperatingCondition:
+    def replace(self, *, load: float = ..., slip: float = ..., speed: float = ..., longitudinal_incline: float = ..., transverse_incline: float = ..., yaw: float = ..., inflation_pressure: Optional[float] = ..., slip_by: SlipBy = ..., force_frame: ForceFrame = ..., moisture: Optional[float] = ..., position: Optional[float] = ..., run: Optional[int] = ...) -> OperatingCondition:
         """A copy in which the attributes given are changed."""
 
 class EffectChoice:

@@ -23,8 +23,8 @@ from soilbin._soilbin import (
 )
 from soilbin.progress import Progress, told_to
 
-CONDITION = ("load", "slip", "speed", "longitudinal_incline", "transverse_incline", "yaw", "pass", "moisture",
-             "position", "run")
+CONDITION = ("load", "slip", "speed", "longitudinal_incline", "transverse_incline", "yaw", "pass",
+             "inflation_pressure", "moisture", "position", "run")
 CHANNELS = tuple(_soilbin.channels())
 
 
@@ -166,6 +166,6 @@ def answers_frame(answers: Sequence[Answer]) -> pd.DataFrame:
 
 
 def without_empty(frame: pd.DataFrame) -> pd.DataFrame:
-    """The frame without its columns moisture, position and run where no row has a value there."""
-    unused = [name for name in ("moisture", "position", "run") if name in frame and frame[name].isna().all()]
+    """The frame without its columns of conditions that no row has a value for."""
+    unused = [name for name in ("inflation_pressure", "moisture", "position", "run") if name in frame and frame[name].isna().all()]
     return frame.drop(columns=unused)
