@@ -174,7 +174,8 @@ TEST_F(SlowInclineMap, SaysWhichCoordinatesCollapseTheData) {
 TEST_F(SlowInclineMap, TellsItInWordsAsAPageAndAsJson) {
   const FailureMapResult& result = learnt().result;
   const std::vector<std::string> words = map_summary(result);
-  EXPECT_THAT(words.front(), AllOf(StartsWith("longitudinal incline: "), HasSubstr("conditions run differ by more than")));
+  EXPECT_THAT(words.front(),
+              AllOf(StartsWith("longitudinal incline: "), HasSubstr("conditions run differ by more than")));
   EXPECT_THAT(words.front(), HasSubstr("too low at all of them"));
   const std::string page = failure_map_page(result, {"Map", "soilbin failure-map made", {}}, "format: ...");
   const std::size_t answer = page.find("id=\"answer\"");  // the words stand after the map
