@@ -17,7 +17,8 @@ namespace {
 
 struct LimitsOptions {
   bool json = false;
-  std::string csv, plot;
+  CsvOutput csv;
+  std::string plot;
 };
 
 int limits(const Question& inputs, const LimitsOptions& options, const Session& session) {
@@ -28,8 +29,8 @@ int limits(const Question& inputs, const LimitsOptions& options, const Session& 
   const std::vector<std::string> doubts = compare::doubts(question, at_limits);
   print_warnings(doubts);
   Outputs outputs;
-  outputs.file(options.csv,
-               [&] { return compare::limits_csv(answers, at_limits, compare::remarks_about(question.scenario)); });
+  outputs.csv(options.csv,
+              [&] { return compare::limits_csv(answers, at_limits, compare::remarks_about(question.scenario)); });
   outputs.drawing(options.plot, [&] { return compare::limits_sheet(question, answers); });
   if (options.json) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
@@ -54,7 +55,7 @@ void add_limits(CLI::App& app, Session& session) {
                                                  std::vector<std::string>{"slip", "longitudinal_incline"});
   const auto options = std::make_shared<LimitsOptions>();
   add_plot(*command, options->plot, "draw the largest pull and the slips against the slope");
-  add_file(*command, "--csv", options->csv, "FILE.csv", "save the table");
+  add_csv(*command, options->csv, "save the table");
   command->add_flag("--json", options->json, "soilbin-limits/1, in SI");
   command->footer(
       "Where a load has no solution, its line gives the reason; the status is 1 where none has one.\n"

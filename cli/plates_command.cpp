@@ -10,7 +10,6 @@
 #include "cli/text_output.hpp"
 #include "compare/doubts/plate_doubts.hpp"
 #include "compare/measured/csv.hpp"
-#include "scenario/errors.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -21,23 +20,12 @@ struct PlatesOptions {
   bool json = false;
 };
 
-std::vector<std::pair<std::string, std::string>> rows_asked(const std::vector<std::string>& texts) {
-  std::vector<std::pair<std::string, std::string>> only;
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw InputError(fmt::format("--only: expected COLUMN=VALUE, such as box=large-box, not '{}'", clipped(text)));
-    only.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-  }
-  return only;
-}
-
 int plates(const PlatesOptions& options) {
   compare::PressureWindow window;
   if (!options.pressure.empty())
     std::tie(window.first, window.last) = read_range("--pressure", options.pressure, {"kPa", zero_or_more});
   const std::vector<compare::MeasuredPlate> tests =
-      compare::read_plates(read_source_text(options.file, compare::largest_csv), rows_asked(options.only));
+      compare::read_plates(read_source_text(options.file, compare::largest_csv), column_values("--only", options.only));
   const compare::MeasuredPlatesFit fit = compare::fit_measured_plates(tests, window);
   const std::vector<std::string> doubts = compare::doubts(fit);
   print_warnings(doubts);

@@ -72,6 +72,10 @@ compare::Campaign find_campaign(const Workplace& place, const std::string& name,
   return compare::read_campaign(find_file(place.library, Shelf::measured, name), place.library, place.effects, use);
 }
 
+std::map<std::string, compare::DataColumn> declared_columns(const Workplace& place, const std::string& name) {
+  return compare::declared_columns(find_file(place.library, Shelf::measured, name), place.library, place.effects);
+}
+
 fs::path user_cache() {
   if (const char* cache = std::getenv("XDG_CACHE_HOME")) return fs::path(cache) / "soilbin";
   if (const char* home = std::getenv("HOME"); home && fs::is_directory(home)) return fs::path(home) / ".cache/soilbin";

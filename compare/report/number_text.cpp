@@ -26,7 +26,7 @@ std::string number(const Estimate& estimate, double per_unit) {
   return fmt::format("{:.{}f} ± {:.{}f}", value, places, error, places);
 }
 
-std::string csv_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+std::string csv_number(double value) { return std::isfinite(value) ? fmt::format("{:.15g}", value + 0.0) : ""; }
 
 double per_unit(const std::string& unit) {
   const Unit parsed = parse_unit(unit);
@@ -60,7 +60,7 @@ std::string spaced(std::string_view name) {
 }
 
 std::string newtons(double force) {
-  return force >= 1000.0 ? fmt::format("{:.4g} kN", force / 1000) : fmt::format("{:.4g} N", force);
+  return std::abs(force) >= 1000.0 ? fmt::format("{:.4g} kN", force / 1000) : fmt::format("{:.4g} N", force);
 }
 
 std::string capital(std::string text) {

@@ -61,7 +61,8 @@ std::vector<Peak> peaks(const StudyPart& part, std::size_t model) {
 }
 
 std::string force(double newton) {
-  return std::abs(newton) >= 1000.0 ? fmt::format("{:.3g} kN", newton / 1000) : fmt::format("{:.3g} N", newton);
+  constexpr double kilo = 999.5;  // what three digits make 1000
+  return std::abs(newton) >= kilo ? number(newton / 1000, 3) + " kN" : number(newton, 3) + " N";
 }
 
 /// "1.32 ± 0.22 kN".
@@ -287,10 +288,9 @@ std::vector<KeyFigure> key_figures(const std::vector<StudyPart>& studies, const 
     for (const ChannelError& error : part.prediction.errors)
       if (channel_views[error.channel].name == "drawbar_pull")
         figures.push_back(
-            {fmt::format("{:.3g} N", error.rmse),
-             fmt::format("error of the predicted drawbar pull without fitting: RMS over {} runs, {:.0f} % of the "
-                         "measured range ({})",
-                         error.runs, 100 * error.share_of_range, part.campaign.name)});
+            {force(error.rmse), fmt::format("error of the predicted drawbar pull without fitting: RMS over {} runs, "
+                                            "{:.0f} % of the measured range ({})",
+                                            error.runs, 100 * error.share_of_range, part.campaign.name)});
   return figures;
 }
 

@@ -187,7 +187,7 @@ TEST(CampaignRefuses, UnknownColumns) {
                     HasSubstr("known without that: run, setpoint, load_N")));
   EXPECT_THAT(refused_csv("torque_Nm", "drawbar_pull_N"), HasSubstr("column 'drawbar_pull_N' appears twice"));
   EXPECT_THAT(refused_csv("torque_Nm", ""), HasSubstr("a spreadsheet writes its empty columns too"));
-  EXPECT_THAT(refused_csv("torque_Nm", "torque_Nm;x"), HasSubstr("parted by commas, not by semicolons"));
+  EXPECT_THAT(refused_csv("torque_Nm", "torque_Nm;x"), HasSubstr("by commas or, all of them, by semicolons"));
 }
 
 // The line to write holds the header's own unit: pasted as it is, it must not read millimetres as metres.
