@@ -91,10 +91,10 @@ std::string too_steep_across(const Scenario& scenario, const Answer& answer, dou
   const double thrust = budget == answer.result->budget.end() ? 0.0 : std::abs(budget->force);
   constexpr double hardly = 0.05;  // of what the soil holds: no slope to speak of
   if (!(share > hardly * held && std::hypot(share, thrust) > held)) return "";
-  const std::string beside = share > held ? "" : fmt::format(", with a thrust of {}", newtons(thrust));
+  const std::string beside = share > held ? "" : fmt::format(", with a thrust of {}", newtons(thrust, 3));
   return fmt::format(
       "the wheel slides down the cross slope at {}: {} of the load act down it{}, and the soil shears at {} (c, phi)",
-      in_words(at), newtons(share), beside, newtons(held));
+      in_words(at), newtons(share, 3), beside, newtons(held, 3));
 }
 
 /// What the analytic wheel answers at one condition.

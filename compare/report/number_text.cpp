@@ -59,8 +59,10 @@ std::string spaced(std::string_view name) {
   return words;
 }
 
-std::string newtons(double force) {
-  return std::abs(force) >= 1000.0 ? fmt::format("{:.4g} kN", force / 1000) : fmt::format("{:.4g} N", force);
+std::string newtons(double force, int digits) {
+  const double kilo = 1000.0 - 0.5 * std::pow(10.0, 3 - digits);  // what so many digits make 1000
+  return std::abs(force) >= kilo ? fmt::format("{:.{}g} kN", force / 1000, digits)
+                                 : fmt::format("{:.{}g} N", force, digits);
 }
 
 std::string capital(std::string text) {

@@ -40,8 +40,8 @@ std::string size_text(double bytes);
 /// A name as people write it: "cross_slope" becomes "cross slope".
 std::string spaced(std::string_view name);
 
-/// A load: "80 N", "4 kN".
-std::string newtons(double force);
+/// A force to so many digits: "80 N", "4 kN", "-8.89 kN"; never with an exponent below 1e7 N.
+std::string newtons(double force, int digits = 4);
 
 /// "drawbar pull" as "Drawbar pull".
 std::string capital(std::string text);

@@ -60,10 +60,7 @@ std::vector<Peak> peaks(const StudyPart& part, std::size_t model) {
   return drawn;
 }
 
-std::string force(double newton) {
-  constexpr double kilo = 999.5;  // what three digits make 1000
-  return std::abs(newton) >= kilo ? number(newton / 1000, 3) + " kN" : number(newton, 3) + " N";
-}
+std::string force(double newton) { return newtons(newton, 3); }
 
 /// "1.32 ± 0.22 kN".
 std::string force(const Estimate& pull) {
