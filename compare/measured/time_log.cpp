@@ -556,11 +556,19 @@ std::optional<double> clock_time(const std::string& text) {
 }
 
 bool names_a_clock(const std::string& header) {
-  std::string name = in_small_letters(header);
-  name = name.substr(0, name.find_first_of("_ [("));
-  for (const char* clock : {"t", "time", "timestamp", "elapsed", "zeit", "temps", "clock", "datetime"})
-    if (name == clock) return true;
-  return false;
+  const std::size_t end = std::min(header.find_first_of("_ [("), header.size());
+  const std::string name = in_small_letters(header.substr(0, end));
+  if (header.front() == 'T' && name == "t") return false;  // a temperature
+  constexpr std::array clocks = {"t", "time", "timestamp", "elapsed", "zeit", "temps", "clock", "datetime"};
+  if (std::ranges::find(clocks, name) == clocks.end()) return false;
+  std::string unit = header.substr(end);
+  std::erase_if(unit, [](char c) { return std::string_view("_ []()").find(c) != std::string_view::npos; });
+  if (unit.empty() || unit == "stamp" || unit == "sec" || unit == "ofday") return true;
+  try {
+    return same_dimension(parse_unit(unit).dimension, parse_unit("s").dimension);
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 bool names_the_wheel(const std::string& header) {

@@ -1,9 +1,11 @@
 // Time logs: how samples become runs, with which errors, and how rows that are samples are told from runs.
 #include "compare/measured/time_log.hpp"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -320,6 +322,10 @@ TEST(TimeLogs, ClocksAreNumbersOrTimesOfDay) {
   EXPECT_EQ(clock_time("12.5"), 12.5);
   EXPECT_EQ(clock_time("01:02:03.5"), 3723.5);
   EXPECT_EQ(*clock_time("2026-01-02T00:00:01") - *clock_time("2026-01-01T23:59:59"), 2.0);
+  for (const char* clock : {"t", "time_s", "Time [ms]", "timestamp", "t_min"})
+    EXPECT_TRUE(names_a_clock(clock)) << clock;
+  for (const char* other : {"T", "t_ambient", "time_constant", "slip", "torque_Nm"})
+    EXPECT_FALSE(names_a_clock(other)) << other;
   EXPECT_FALSE(clock_time("noon"));
   EXPECT_FALSE(clock_time("1:2:3:4"));
 }
