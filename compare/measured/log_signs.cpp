@@ -64,6 +64,20 @@ std::vector<std::size_t> starts_at_one_setpoint(const std::vector<Run>& runs) {
   return stretch_starts(held, 0, runs.size());
 }
 
+std::vector<Run> runs_between(const std::vector<Run>& runs, const std::vector<std::size_t>& starts, std::size_t k) {
+  const std::size_t end = k + 1 < starts.size() ? starts[k + 1] : runs.size();
+  return {runs.begin() + static_cast<std::ptrdiff_t>(starts[k]), runs.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
+/// Whether slip goes one way in four of five steps: rows sorted by slip, or a sweep; what follows slip is smooth there.
+bool is_ramp(const std::vector<Run>& runs) {
+  constexpr double most = 0.8;
+  std::size_t up = 0, down = 0;
+  for (std::size_t i = 1; i < runs.size(); ++i)
+    up += runs[i].at.slip > runs[i - 1].at.slip, down += runs[i].at.slip < runs[i - 1].at.slip;
+  return runs.size() > 1 && static_cast<double>(std::max(up, down)) >= most * static_cast<double>(runs.size() - 1);
+}
+
 /// Autocorrelation at lag 1 of rows of one setpoint.
 struct RowCorrelation {
   double value = 0.0;
@@ -77,10 +91,14 @@ RowCorrelation smoothness(const std::vector<Run>& runs, const std::vector<std::s
   for (const ChannelView& channel : channel_views) {
     double squares = 0.0, products = 0.0, pairs = 0.0;
     for (std::size_t k = 0; k < starts.size(); ++k) {
+      const std::vector<Run> stretch = runs_between(runs, starts, k);
       std::vector<double> values;
-      for (std::size_t i = starts[k]; i < (k + 1 < starts.size() ? starts[k + 1] : runs.size()); ++i)
-        if (const auto& value = runs[i].*channel.measured) values.push_back(*value);
-      if (values.size() < 4) continue;
+      for (const Run& run : stretch)
+        if (const auto& value = run.*channel.measured) values.push_back(*value);
+      if (values.size() < 4 || is_ramp(stretch)) continue;
+      const auto [least, most] = std::ranges::minmax(values);
+      constexpr double rounding = 1e-12;  // of the values: a constant has no order
+      if (most - least <= rounding * std::max(std::abs(least), std::abs(most))) continue;
       double mean = 0.0;
       for (const double x : values) mean += x / static_cast<double>(values.size());
       for (std::size_t i = 0; i < values.size(); ++i) {
@@ -143,9 +161,8 @@ std::string why_samples(const Campaign& campaign) {
   std::size_t in_long = 0, longs = 0;
   for (std::size_t k = 0; k < starts.size(); ++k) {
     const std::size_t size = (k + 1 < starts.size() ? starts[k + 1] : runs.size()) - starts[k];
-    const std::vector<Run> stretch(runs.begin() + static_cast<std::ptrdiff_t>(starts[k]),
-                                   runs.begin() + static_cast<std::ptrdiff_t>(starts[k] + size));
-    if (size >= long_stretch && holds_slip(stretch)) in_long += size, ++longs;
+    const std::vector<Run> stretch = runs_between(runs, starts, k);
+    if (size >= long_stretch && holds_slip(stretch) && !is_ramp(stretch)) in_long += size, ++longs;
   }
   if (2 * in_long >= runs.size() && (longs > 1 || smooth.value > 0.0))
     return fmt::format("{} rows on end are at one setpoint{}", in_long / longs, smoothly);

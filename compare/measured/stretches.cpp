@@ -93,6 +93,13 @@ std::vector<std::size_t> stretch_starts(const std::vector<HeldSeries>& series, s
     }
     starts[k] = best;
   }
+  for (std::size_t k = 1; k < starts.size();) {  // a block across an end may have been a stretch of its own
+    const std::size_t before = starts[k - 1], after = k + 1 < starts.size() ? starts[k + 1] : last;
+    if (cost(before, after) - cost(before, starts[k]) - cost(starts[k], after) < each)
+      starts.erase(starts.begin() + static_cast<std::ptrdiff_t>(k));
+    else
+      ++k;
+  }
   return starts;
 }
 

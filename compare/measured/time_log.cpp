@@ -406,18 +406,31 @@ std::vector<double> told_rows_of(const LoggedColumn& column, const Rows& rows) {
   return values;
 }
 
-/// The rows of a run without its transients.
-Rows steady_rows(const TimeLog& log, const Rows& rows) {
-  std::size_t before = 0, after = 0;
+/// The longest transient at one end of a run, of all columns.
+std::size_t transient_of(const TimeLog& log, const Rows& rows, bool at_the_end) {
+  std::size_t longest = 0;
   for (const LoggedColumn& column : log.columns) {
     if (column.column->content != Content::number || column.column->quantity == "position") continue;
     if (told_rows_of(column, rows).size() < fewest_samples) continue;
     Thinned series = thinned(without_gaps(rows_of(column, rows)));
-    before = std::max(before, series.each * transient(series.means));
-    std::ranges::reverse(series.means);
-    after = std::max(after, series.each * transient(series.means));
+    if (at_the_end) std::ranges::reverse(series.means);
+    longest = std::max(longest, series.each * transient(series.means));
   }
-  return {rows.first + before, before + after < rows.size() ? rows.last - after : rows.first + before, rows.clock_part};
+  return longest;
+}
+
+/// The rows of a run without its transients, each end's found once more where the other's no longer hides it. All of
+/// them where half or more would go: that is no transient.
+Rows steady_rows(const TimeLog& log, const Rows& rows) {
+  Rows rest = rows;
+  for (bool cut = true; cut && 2 * rest.size() > rows.size();) {
+    const std::size_t before = transient_of(log, rest, false);
+    rest.first += before;
+    const std::size_t after = transient_of(log, rest, true);
+    rest.last -= after;
+    cut = before + after > 0;
+  }
+  return 2 * rest.size() > rows.size() ? rest : rows;
 }
 
 std::string spaced_name(std::string name) {
@@ -480,10 +493,8 @@ Made run_of(const TimeLog& log, const Rows& rows) {
   LoggedRun made;
   made.first_line = log.line[rows.first], made.last_line = log.line[rows.last - 1], made.samples = rows.size();
   const Rows steady = steady_rows(log, rows);
-  if (steady.size() < fewest_samples) return {std::nullopt, "transients alone: no steady part"};
+  if (steady.size() < fewest_samples) return {std::nullopt, "too few samples behind the transients"};
   made.cut_before = steady.first - rows.first, made.cut_after = rows.last - steady.last;
-  if (2 * steady.size() < rows.size())
-    made.doubts.push_back("less than half of it is steady: it was short, or has several setpoints");
   for (const LoggedColumn& column : log.columns) {
     const std::vector<double> values = told_rows_of(column, steady);
     const RunColumn& about = *column.column;
