@@ -29,6 +29,7 @@ void add_sweep(CLI::App& app, Session& session);
 void add_element_test(CLI::App& app, Session& session);
 void add_bevameter(CLI::App& app, Session& session);
 void add_drive(CLI::App& app, Session& session);
+void add_runs(CLI::App& app, Session& session);
 void add_plates(CLI::App& app, Session& session);
 void add_limits(CLI::App& app, Session& session);
 void add_predict(CLI::App& app, Session& session);

@@ -27,7 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CompareOptions {
-  std::string study, model, measured, report, markdown, csv, replay, title, soil;
+  CsvOutput csv;
+  std::string study, model, measured, report, markdown, replay, title, soil;
   std::vector<std::string> effects;
   bool json = false, no_loop = false;
   unsigned seed = 1;
@@ -111,7 +112,7 @@ Outputs save(const compare::Comparison& comparison, const compare::ComparisonAbo
     for (const std::string& package : compare::find_libraries().missing)
       fmt::print(stderr, "soilbin: without {} some figures of the page are plain drawings\n", package);
   });
-  outputs.file(asked.csv, [&] { return compare::differences_csv(comparison); });
+  outputs.csv(asked.csv, [&] { return compare::differences_csv(comparison); });
   outputs.write(asked.markdown, [&] {
     compare::write_markdown(asked.markdown, comparison, about);
     fmt::print(stderr, "wrote {}\n", (fs::path(asked.markdown) / "report.md").string());
@@ -137,6 +138,8 @@ int compare_models(CompareOptions asked, const CLI::App& command, const Session&
   check_flags(asked, command, question);
   compare::ComparisonAbout about;
   std::string values_of;  // the soil that --soil names
+  asked.csv.needs_a_file(!asked.markdown.empty(), "--markdown");
+  about.decimal_comma = asked.csv.decimal_comma;
   if (!asked.soil.empty()) {
     const Soil given = find_soil(asked.soil, session.place.library);
     question.scenario.soil.semi_empirical = given.semi_empirical;
@@ -196,7 +199,8 @@ void add_compare(CLI::App& app, Session& session) {
   add_file(*command, "--report", asked->report, "FILE.html", "write everything as one page");
   add_folder(*command, "--markdown", asked->markdown, "write it as Markdown with SVGs and the figures' data",
              {"case.yaml"});
-  add_file(*command, "--csv", asked->csv, "FILE.csv", "save every row");
+  add_file(*command, "--csv", asked->csv.file, "FILE.csv", "save every row");
+  add_decimal_comma(*command, asked->csv);
   add_value(*command, "--replay", asked->replay, "FILE", "a replay of grains to put into the page");
   add_value(*command, "--title", asked->title, "TEXT", "title of the page");
   command->add_flag("--no-loop", asked->no_loop, "do not look for what the analytic model lacks");

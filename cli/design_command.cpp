@@ -20,7 +20,8 @@ namespace soilbin::cli {
 namespace {
 
 struct DesignFlags {
-  std::string campaign, csv;
+  std::string campaign;
+  CsvOutput csv;
   std::vector<std::string> limits, effects, noise;
   int runs = 24;
   unsigned seed = 1;
@@ -53,10 +54,10 @@ int design(const DesignFlags& asked, const Session& session) {
   options.progress = shown_progress();
   const compare::TestDesign design = compare::design_test(campaign, options);
   clear_progress_line();
-  const std::string rows = compare::rows_to_fill_in(design);
-  refuse_other_rows(asked.csv, rows);
+  const std::string rows = asked.csv.in_dialect(compare::rows_to_fill_in(design));
+  refuse_other_rows(asked.csv.file, rows);
   Outputs outputs;
-  outputs.file(asked.csv, [&] { return rows; });
+  outputs.file(asked.csv.file, [&] { return rows; });
   if (asked.json)
     print_json(compare::to_json(design));
   else
@@ -81,7 +82,9 @@ void add_design(CLI::App& app, Session& session) {
   add_value(*command, "--noise", asked->noise, "CHANNEL=SD",
             "standard deviation of one run, for each channel that is measured; repeatable; 2 % of its range")
       ->allow_extra_args(false);
-  add_kept_file(*command, "--csv", asked->csv, "FILE.csv", "save the rows, to fill in as the campaign's runs");
+  CLI::Option* const rows =
+      add_kept_file(*command, "--csv", asked->csv.file, "FILE.csv", "save the rows, to fill in as the campaign's runs");
+  add_decimal_comma(*command, asked->csv)->needs(rows);
   add_value(*command, "--seed", asked->seed, "N", "seed of the order of the runs; 1");
   command->add_flag("--json", asked->json, "the answer as JSON, soilbin-design/1");
   command->footer(

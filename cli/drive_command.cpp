@@ -25,7 +25,8 @@ namespace {
 constexpr std::size_t shown_rows = 12;
 
 struct DriveOptions {
-  std::string name, model = "bekker_wong", plot, csv, report;
+  std::string name, model = "bekker_wong", plot, report;
+  CsvOutput csv;
   int samples = 400;
   bool json = false, ledger = false;
   SoilBinFlags soil_bin;
@@ -48,7 +49,7 @@ template <class Answer>
 Outputs save(const DriveOptions& options, const Answer& answer, const std::string& title,
              const std::vector<std::string>& doubts, const Session& session) {
   Outputs outputs;
-  outputs.file(options.csv, [&] { return compare::drive_csv(answer); });
+  outputs.csv(options.csv, [&] { return compare::drive_csv(answer); });
   outputs.drawing(options.plot, [&] { return compare::drive_sheet(answer); });
   outputs.file(options.report, [&] {
     return compare::drive_page(answer, {title, session.command, versions(), doubts});
@@ -159,7 +160,7 @@ void add_drive(CLI::App& app, Session& session) {
             "bekker_wong; dem: on grains, in the virtual soil bin; or both")
       ->capture_default_str();
   add_plot(*command, options->plot, "draw speed, slip, sinkage, torque, forces and energy against time");
-  add_file(*command, "--csv", options->csv, "FILE.csv", "save every sample");
+  add_csv(*command, options->csv, "save every sample");
   add_file(*command, "--report", options->report, "FILE.html", "save a page to open in a browser");
   add_value(*command, "--samples", options->samples, "WHOLE", "intervals of time that are recorded; 400")
       ->check(whole_number(1, 1000000));

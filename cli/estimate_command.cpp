@@ -43,7 +43,8 @@ void print_text(const Case& question, const std::vector<compare::ModelAnswers>& 
 
 struct EstimateOptions {
   bool json = false;
-  std::string csv, plot;
+  CsvOutput csv;
+  std::string plot;
   RigidFlag rigid;
 };
 
@@ -70,7 +71,7 @@ int estimate(const Question& inputs, const EstimateOptions& options, const Sessi
   std::ranges::copy(compare::doubts(question, study), std::back_inserter(doubts));
   print_warnings(doubts);
   Outputs outputs;
-  outputs.file(options.csv, [&] { return compare::study_csv(study, compare::remarks_about(question.scenario)); });
+  outputs.csv(options.csv, [&] { return compare::study_csv(study, compare::remarks_about(question.scenario)); });
   outputs.drawing(options.plot, [&] { return sheet_of(question, study); });
   if (options.json)
     print_json(document_of("soilbin-estimate/1", question, compare::rows_json(study), session.place.effects), doubts);
@@ -90,7 +91,7 @@ void add_estimate(CLI::App& app, Session& session) {
   const auto options = std::make_shared<EstimateOptions>();
   options->rigid.add_to(*command);
   add_plot(*command, options->plot, "draw the curves over slip, or over another condition that varies");
-  add_file(*command, "--csv", options->csv, "FILE.csv", "save the table");
+  add_csv(*command, options->csv, "save the table");
   command->add_flag("--json", options->json, "the answers as JSON, in SI");
   command->footer(
       "Several values of a condition give a table: a list, a range of seven values (0%..60%), or one in steps\n"

@@ -124,6 +124,18 @@ std::vector<std::string> several_values(const std::string& flag, const std::stri
   }
 }
 
+std::vector<std::pair<std::string, std::string>> column_values(const std::string& flag,
+                                                               const std::vector<std::string>& texts) {
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InputError(fmt::format("{}: expected COLUMN=VALUE, such as box=large-box, not '{}'", flag, clipped(text)));
+    all.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+  }
+  return all;
+}
+
 int all_cores() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
 
 CLI::Validator whole_number(long long lower, long long upper) {

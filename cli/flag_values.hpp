@@ -42,6 +42,10 @@ std::pair<double, double> read_range(const std::string& flag, const std::string&
 /// that names the flag, for a range that is none; the values themselves are read later.
 std::vector<std::string> several_values(const std::string& flag, const std::string& text, const Measure& measure);
 
+/// "COLUMN=VALUE" as a pair, such as box=large-box. Throws InputError that names the flag.
+std::vector<std::pair<std::string, std::string>> column_values(const std::string& flag,
+                                                               const std::vector<std::string>& texts);
+
 /// What --threads 0 means: the number of cores, at least 1.
 int all_cores();
 

@@ -20,7 +20,8 @@ namespace {
 
 struct LimitsOptions {
   bool json = false;
-  std::string csv, plot, max_slip;
+  CsvOutput csv;
+  std::string plot, max_slip;
   RigidFlag rigid;
 };
 
@@ -38,8 +39,8 @@ int limits(const Question& inputs, const LimitsOptions& options, const Session& 
   std::ranges::copy(compare::doubts(question, at_limits), std::back_inserter(doubts));
   print_warnings(doubts);
   Outputs outputs;
-  outputs.file(options.csv,
-               [&] { return compare::limits_csv(answers, at_limits, compare::remarks_about(question.scenario)); });
+  outputs.csv(options.csv,
+              [&] { return compare::limits_csv(answers, at_limits, compare::remarks_about(question.scenario)); });
   outputs.drawing(options.plot, [&] { return compare::limits_sheet(question, answers); });
   if (options.json) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
@@ -65,7 +66,7 @@ void add_limits(CLI::App& app, Session& session) {
   const auto options = std::make_shared<LimitsOptions>();
   options->rigid.add_to(*command);
   add_plot(*command, options->plot, "draw the largest pull and the slips against the slope");
-  add_file(*command, "--csv", options->csv, "FILE.csv", "save the table");
+  add_csv(*command, options->csv, "save the table");
   command
       ->add_option("--max-slip", options->max_slip,
                    "slip up to which the wheel may climb, beside the theoretical limit (20 %)")

@@ -12,7 +12,9 @@
 #include "cli/flag_values.hpp"
 #include "cli/picture.hpp"
 #include "cli/progress.hpp"
+#include "compare/measured/csv.hpp"
 #include "scenario/atomic_file.hpp"
+#include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::cli {
@@ -52,11 +54,35 @@ void Outputs::file(const std::string& name, const std::function<std::string()>& 
   write(name, [&] { write_file_atomically(name, content()); });
 }
 
+std::string CsvOutput::in_dialect(std::string csv) const {
+  return decimal_comma ? compare::with_decimal_commas(csv) : std::move(csv);
+}
+
+void CsvOutput::needs_a_file(bool other_given, const char* other) const {
+  if (decimal_comma && file.empty() && !other_given)
+    throw InputError(
+        fmt::format("--decimal-comma needs --csv or {}\n  hint: it is about the files that these write", other));
+}
+
+void Outputs::csv(const CsvOutput& asked, const std::function<std::string()>& content) {
+  file(asked.file, [&] { return asked.in_dialect(content()); });
+}
+
 void Outputs::drawing(const std::string& name, const std::function<compare::Sheet()>& sheet) {
   file(name, [&] { return drawing_format_of(name)->from_svg(compare::svg(sheet())); });
 }
 
 int Outputs::status(int so_far) const { return complete_ ? so_far : failed; }
+
+CLI::Option* add_decimal_comma(CLI::App& command, CsvOutput& csv) {
+  return command.add_flag("--decimal-comma", csv.decimal_comma,
+                          "CSV for spreadsheets of countries with a decimal comma: 4,4;80");
+}
+
+void add_csv(CLI::App& command, CsvOutput& csv, const char* meaning) {
+  CLI::Option* const file = add_file(command, "--csv", csv.file, "FILE.csv", meaning);
+  add_decimal_comma(command, csv)->needs(file);
+}
 
 void add_plot(CLI::App& command, std::string& name, const char* meaning) {
   const auto refused = [](const std::string& given) {

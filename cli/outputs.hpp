@@ -10,6 +10,17 @@
 
 namespace soilbin::cli {
 
+/// A CSV that a command was asked for, and how people's spreadsheets read it.
+struct CsvOutput {
+  std::string file{};
+  bool decimal_comma = false;  ///< semicolons between cells, decimal commas
+
+  /// The text as it was asked for.
+  std::string in_dialect(std::string csv) const;
+  /// Throws InputError for --decimal-comma where no CSV is written: neither by --csv nor by `other`.
+  void needs_a_file(bool other_given, const char* other) const;
+};
+
 /// Writes files at the end of a command. One that can't be written is told on standard error, and the others are still
 /// written and the answer printed: the work isn't lost for a disk that is full.
 class Outputs {
@@ -17,6 +28,7 @@ class Outputs {
   /// Calls `write`, which writes what was named, where anything was.
   void write(const std::string& name, const std::function<void()>& write);
   void file(const std::string& name, const std::function<std::string()>& content);
+  void csv(const CsvOutput& asked, const std::function<std::string()>& content);
   /// A drawing in the format that the name's ending says.
   void drawing(const std::string& name, const std::function<compare::Sheet()>& sheet);
 
@@ -27,6 +39,11 @@ class Outputs {
  private:
   bool complete_ = true;
 };
+
+/// Adds --csv, which names a file to write: tried as by add_file; and --decimal-comma, its dialect.
+void add_csv(CLI::App& command, CsvOutput& csv, const char* meaning);
+/// Adds --decimal-comma alone, to a command that writes CSVs by another flag too.
+CLI::Option* add_decimal_comma(CLI::App& command, CsvOutput& csv);
 
 /// Adds --plot, which names a drawing: tried as by add_file (flag_values.hpp), with an ending that tells a format,
 /// .svg, .png or .pdf.

@@ -10,7 +10,6 @@
 #include "cli/outputs.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/plate_doubts.hpp"
-#include "scenario/errors.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -21,17 +20,6 @@ struct PlatesOptions {
   bool json = false;
 };
 
-std::vector<std::pair<std::string, std::string>> rows_asked(const std::vector<std::string>& texts) {
-  std::vector<std::pair<std::string, std::string>> only;
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw InputError(fmt::format("--only: expected COLUMN=VALUE, such as box=large-box, not '{}'", clipped(text)));
-    only.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-  }
-  return only;
-}
-
 int plates(const PlatesOptions& options) {
   compare::PressureWindow window;
   if (!options.pressure.empty())
@@ -39,7 +27,7 @@ int plates(const PlatesOptions& options) {
   std::optional<double> diameter;
   if (!options.plate.empty()) diameter = read_flag("--plate", options.plate, {"mm", above_zero});
   const std::vector<compare::MeasuredPlate> tests = compare::read_plates(
-      read_source_text(options.file, compare::largest_plate_csv), rows_asked(options.only), diameter);
+      read_source_text(options.file, compare::largest_plate_csv), column_values("--only", options.only), diameter);
   const compare::MeasuredPlatesFit fit = compare::fit_measured_plates(tests, window);
   const std::vector<std::string> doubts = compare::doubts(fit);
   print_warnings(doubts);

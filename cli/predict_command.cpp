@@ -21,7 +21,8 @@ namespace soilbin::cli {
 namespace {
 
 struct PredictOptions {
-  std::string campaign, model, plot, csv;
+  std::string campaign, model, plot;
+  CsvOutput csv;
   bool json = false;
 };
 
@@ -54,9 +55,8 @@ int predict(const PredictOptions& options, const Session& session) {
   const std::vector<std::string> doubts = compare::doubts(campaign, scenario, prediction);
   print_warnings(doubts);
   Outputs outputs;
-  outputs.file(options.csv, [&] {
-    return compare::prediction_csv(prediction, compare::remarks_on(campaign, scenario, prediction));
-  });
+  outputs.csv(options.csv,
+              [&] { return compare::prediction_csv(prediction, compare::remarks_on(campaign, scenario, prediction)); });
   outputs.drawing(options.plot, [&] { return compare::campaign_sheet(campaign, prediction); });
   if (options.json)
     print_json(compare::to_json(prediction, campaign.name), doubts);
@@ -83,7 +83,7 @@ void add_predict(CLI::App& app, Session& session) {
                    "a resolved model (soilbin-case/1) in place of the declared soil and effects")
       ->type_name("FILE");
   add_plot(*command, options->plot, "draw measured and predicted against slip");
-  add_file(*command, "--csv", options->csv, "FILE.csv", "save each run as measured and as predicted");
+  add_csv(*command, options->csv, "save each run as measured and as predicted");
   command->add_flag("--json", options->json, "soilbin-predict/1, in SI");
   command->footer("Example: soilbin predict cmu-smooth --plot predicted.svg");
   command->callback([=, &session] { session.action = [=, &session] { return predict(*options, session); }; });

@@ -26,7 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RunOptions {
-  std::string study, model, plot, csv, output;
+  std::string study, model, plot, output;
+  CsvOutput csv;
   bool json = false, converge = false, dry_run = false;
   ConditionFlags conditions;
   ErrorFlag errors;
@@ -45,12 +46,12 @@ void save(Outputs& outputs, const RunOptions& options, const Case& question, con
           const Workplace& place) {
   const std::vector<compare::ModelAnswers>& study = answered.study;
   const auto csv = [&] { return compare::study_csv(study, compare::remarks_about(question.scenario, answered)); };
-  outputs.file(options.csv, csv);
+  outputs.csv(options.csv, csv);
   outputs.drawing(options.plot, [&] { return compare::plot_of_study(question, study); });
   outputs.write(options.output, [&] {
     const fs::path folder = options.output;
     write_file_atomically(folder / "case.yaml", write_case(question, place.effects));
-    write_file_atomically(folder / "results.csv", csv());
+    write_file_atomically(folder / "results.csv", options.csv.in_dialect(csv()));
     write_file_atomically(folder / "results.json", compare::json_text(run_document(question, answered, place)));
   });
 }
@@ -67,7 +68,7 @@ void check_flags_of_converge(const RunOptions& options) {
       {"--replay", !bin.replay.empty()},
       {"--paraview", !bin.paraview.empty()},
       {"--plot", !options.plot.empty()},
-      {"--csv", !options.csv.empty()},
+      {"--csv", !options.csv.file.empty()},
       {"--output", !options.output.empty()},
       {"--json", options.json && options.dry_run},
   };
@@ -228,6 +229,7 @@ int answer(const RunOptions& options, const Case& question, const Case& whole,
 int run(RunOptions options, const CLI::App& command, const Session& session) {
   SoilBinFlags& bin = options.soil_bin;
   if (options.converge) check_flags_of_converge(options);
+  options.csv.needs_a_file(!options.output.empty(), "--output");
   if (!bin.recorded.empty()) bin.recorded = find_record(session.place, options.study, bin.recorded);
   Case question = find_study(session.place, options.study);
   options.errors.apply(question);
@@ -257,7 +259,8 @@ void add_run(CLI::App& app, Session& session) {
       ->required();
   command->add_option("--model", options->model, "only this model: bekker_wong or dem")->type_name("NAME");
   add_plot(*command, options->plot, "draw the curves over slip, or over another condition that varies");
-  add_file(*command, "--csv", options->csv, "FILE.csv", "save the table");
+  add_file(*command, "--csv", options->csv.file, "FILE.csv", "save the table");
+  add_decimal_comma(*command, options->csv);
   add_folder(*command, "--output", options->output, "save the resolved case and the results", {"case.yaml"});
   command->add_flag("--json", options->json, "the results as JSON, in SI");
   command

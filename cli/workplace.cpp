@@ -72,6 +72,10 @@ compare::Campaign find_campaign(const Workplace& place, const std::string& name,
   return compare::read_campaign(find_file(place.library, Shelf::measured, name), place.library, place.effects, use);
 }
 
+std::map<std::string, compare::DataColumn> declared_columns(const Workplace& place, const std::string& name) {
+  return compare::declared_columns(find_file(place.library, Shelf::measured, name), place.library, place.effects);
+}
+
 fs::path user_cache() {
   std::error_code unseen;
   if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && fs::path(cache).is_absolute())

@@ -49,6 +49,9 @@ inline constexpr const char* library_record = "library";
 compare::Campaign find_campaign(const Workplace& place, const std::string& name,
                                 compare::CampaignUse use = compare::CampaignUse::prediction);
 
+/// The columns that such a campaign declares, by quantity; its rows are not read.
+std::map<std::string, compare::DataColumn> declared_columns(const Workplace& place, const std::string& name);
+
 /// $XDG_CACHE_HOME/soilbin, else .cache/soilbin in the user's home; empty where there is no home. As the XDG Base
 /// Directory Specification asks, an XDG_CACHE_HOME that is empty or no absolute path counts as not set.
 std::filesystem::path user_cache();

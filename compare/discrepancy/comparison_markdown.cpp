@@ -12,6 +12,7 @@
 #include "compare/discrepancy/comparison_sheets.hpp"
 #include "compare/discrepancy/comparison_tables.hpp"
 #include "compare/loop/answer_words.hpp"
+#include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
@@ -47,16 +48,19 @@ std::string table_text(const Table& table) {
 /// Grows report.md, and writes each figure and its data beside it.
 class Markdown {
  public:
-  explicit Markdown(fs::path folder) : folder_(std::move(folder)) {}
+  Markdown(fs::path folder, bool decimal_comma) : folder_(std::move(folder)), decimal_comma_(decimal_comma) {}
 
   void text(const std::string& paragraph) { body_ += paragraph + "\n\n"; }
   void table(const Table& table) { body_ += table_text(table); }
   void figure(const std::string& name, const Sheet& sheet) {
     if (sheet.plots.empty()) return;
     picture(name, svg(sheet), sheet.title.empty() ? name : sheet.title);
-    write_file_atomically(folder_ / (name + ".csv"), sheet_csv(sheet));
+    csv(name, sheet_csv(sheet));
     write_file_atomically(folder_ / (name + ".json"), json_text(to_json(sheet)));
     body_ += fmt::format("Data: [CSV]({0}.csv), [JSON]({0}.json).\n\n", name);
+  }
+  void csv(const std::string& name, const std::string& text) const {
+    write_file_atomically(folder_ / (name + ".csv"), decimal_comma_ ? with_decimal_commas(text) : text);
   }
   void picture(const std::string& name, const std::string& drawing, const std::string& title) {
     write_file_atomically(folder_ / (name + ".svg"), drawing);
@@ -66,6 +70,7 @@ class Markdown {
 
  private:
   fs::path folder_;
+  bool decimal_comma_;
   std::string body_;
 };
 
@@ -97,7 +102,7 @@ void write_markdown(const fs::path& folder, const Comparison& answered, const Co
   make_folder(folder);
   Comparison comparison = answered;
   const std::vector<std::string> labels = label_sides_in_words(comparison);
-  Markdown md(folder);
+  Markdown md(folder, about.decimal_comma);
   md.text("# " + plain(about.page.title));
   for (const Clause& clause : summary(comparison, about.loop ? &*about.loop : nullptr))
     md.text(fmt::format("- {}{}", clause.about.empty() ? "" : "**" + plain(clause.about) + ".** ", plain(clause.text)));
@@ -122,7 +127,7 @@ void write_markdown(const fs::path& folder, const Comparison& answered, const Co
   for (const auto* list : {&ids, &about.page.versions, &about.facts})
     for (const auto& [name, value] : *list) md.text(fmt::format("- {}: {}", plain(name), plain(value)));
   md.write();
-  write_file_atomically(folder / "differences.csv", differences_csv(answered));
+  md.csv("differences", differences_csv(answered));
   write_file_atomically(folder / "comparison.json", json_text(comparison_json(answered, about)));
   write_file_atomically(folder / "case.yaml", about.resolved_case);
 }

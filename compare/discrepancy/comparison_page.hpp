@@ -18,6 +18,7 @@ struct ComparisonAbout {
   std::optional<LoopAnswer> loop;
   std::vector<std::string> mistaken_columns;  ///< of the measurements that the loop took (DoubtsBeforeFit::columns)
   std::optional<ReplayFile> replay;
+  bool decimal_comma = false;  ///< in the CSVs beside report.md (measured/csv.hpp)
 };
 
 /// What the loop makes of the best reference that there is, measurements before grains; nothing where all sides are

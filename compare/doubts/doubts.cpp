@@ -17,9 +17,9 @@
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/doubts/row_doubts.hpp"
 #include "compare/doubts/unused_inputs.hpp"
+#include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/nearest_word.hpp"
-#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -91,12 +91,10 @@ std::string too_steep_across(const Scenario& scenario, const Answer& answer, dou
   const double thrust = budget == answer.result->budget.end() ? 0.0 : std::abs(budget->force);
   constexpr double hardly = 0.05;  // of what the soil holds: no slope to speak of
   if (!(share > hardly * held && std::hypot(share, thrust) > held)) return "";
-  const std::string beside = share > held ? "" : fmt::format(", with a thrust of {:.3g} N", thrust);
+  const std::string beside = share > held ? "" : fmt::format(", with a thrust of {}", newtons(thrust, 3));
   return fmt::format(
-      "the wheel slides down the cross slope at {}: {:.3g} N of the load act down it{}, and the soil shears at {:.3g} "
-      "N "
-      "(c, phi)",
-      in_words(at), share, beside, held);
+      "the wheel slides down the cross slope at {}: {} of the load act down it{}, and the soil shears at {} (c, phi)",
+      in_words(at), newtons(share, 3), beside, newtons(held, 3));
 }
 
 /// Whether the scenario's effects let the tire flatten.
@@ -327,13 +325,16 @@ DoubtsBeforeFit doubts_of(const Campaign& campaign, const Case& question, const 
   if (next == NextIs::nothing)
     for (UnusedInput& one : unused_inputs(question))
       if (!only_tells_the_row(one)) warnings.push_back(std::move(one.words));
-  Warnings of_data;
-  for (const RowDoubt& one : row_doubts(campaign))
+  Warnings of_data, mistaken;
+  for (const RowDoubt& one : row_doubts(campaign)) {
     of_data.push_back(one.line ? fmt::format("line {}: {}", *one.line, one.words) : one.words);
+    if (one.no_runs) mistaken.push_back(one.words);
+  }
   const Warnings columns = column_doubts(campaign, study.front().answers, asked_again(question));
   append(of_data, columns);
+  append(mistaken, columns);
   append(warnings, once_each(of_data));
-  return {warnings, columns};
+  return {warnings, mistaken};
 }
 
 /// A carcass pressure that a declared effect reads and no fit may move: nobody measures one.

@@ -16,6 +16,7 @@
 //   grains               odd values, too soft or coarse, a law that hangs on the   grain_doubts.cpp
 //                        step
 //   measured rows        repeated, flipped, impossible                             row_doubts.cpp
+//                        samples of a log in place of runs
 //   measured columns     swapped, in another unit, of another sign                 column_doubts.cpp
 //   measured plates      a modulus below 0, no repeats, a form that misses         plate_doubts.cpp
 //
@@ -54,7 +55,8 @@ std::vector<std::string> doubts(const Campaign& campaign);
 
 struct DoubtsBeforeFit {
   std::vector<std::string> all;
-  std::vector<std::string> columns;  ///< those of them that take a column for mistaken: no verdict holds beside one
+  /// Those of them that take a column for mistaken or the rows for samples of a log: no verdict holds beside one.
+  std::vector<std::string> columns;
 };
 
 /// The same before a fit that looks for effects: without what the declared model alone doesn't hear of.

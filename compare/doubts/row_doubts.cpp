@@ -9,7 +9,9 @@
 #include <tuple>
 
 #include "compare/measured/channels.hpp"
+#include "compare/measured/log_signs.hpp"
 #include "compare/measured/within_run_scatter.hpp"
+#include "compare/report/number_text.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -25,10 +27,9 @@ void add_impossible_rows(const Campaign& campaign, RowDoubts& found) {
                                      "the column's unit right?",
                                      1000 * *run.sinkage)});
     if (run.drawbar_pull && std::abs(*run.drawbar_pull) > 3 * run.at.load)
-      found.push_back(
-          {run.csv_line, fmt::format("a drawbar pull of {:.4g} N is more than three times the load: are the "
-                                     "units of both right?",
-                                     *run.drawbar_pull)});
+      found.push_back({run.csv_line, fmt::format("a drawbar pull of {} is more than three times the load: are the "
+                                                 "units of both right?",
+                                                 newtons(*run.drawbar_pull))});
   }
 }
 
@@ -102,9 +103,11 @@ void add_repeated_rows(const std::vector<Run>& runs, RowDoubts& found) {
 
 std::vector<RowDoubt> row_doubts(const Campaign& campaign) {
   RowDoubts found;
+  for (std::string& sign : signs_of_a_log(campaign)) found.push_back({std::nullopt, std::move(sign), true});
+  const bool runs = found.empty();
   add_impossible_rows(campaign, found);
   add_flipped_sinkage(campaign.runs, found);
-  add_repeated_rows(campaign.runs, found);
+  if (runs) add_repeated_rows(campaign.runs, found);  // samples of a log may well be alike
   add_unsteady_runs(campaign.runs, found);
   return found;
 }

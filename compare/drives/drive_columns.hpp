@@ -83,7 +83,7 @@ std::string columns_csv(const DriveColumns<Sample>& columns, const Sample& sampl
   for (const DriveColumn<Sample>& column : columns) {
     const double value = column.get(sample);
     if (&column != columns.data()) text += ',';
-    if (std::isfinite(value)) text += fmt::format("{}", value);
+    text += csv_number(value);
   }
   return text;
 }

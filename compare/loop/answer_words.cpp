@@ -401,11 +401,10 @@ std::vector<BackedSentence> headline(const LoopAnswer& answer, const std::vector
   }
   std::vector<BackedSentence> parts;
   if (!column_doubts.empty())
-    parts.push_back(
-        {.about = "Check first",
-         .text = fmt::format("A column looks wrong, and the loop may have taken that for an effect. Correct "
-                             "it and run the loop again: {}.",
-                             fmt::join(column_doubts, "; "))});
+    parts.push_back({.about = "Check first",
+                     .text = fmt::format("The data look wrong, and the loop may have taken that for an effect. Correct "
+                                         "them and run the loop again: {}.",
+                                         fmt::join(column_doubts, "; "))});
   parts.push_back({.about = "What is missing", .text = std::move(verdict), .detail = beside_the_verdict(answer)});
   if (answer.validation.overall.cells > 0)
     parts.push_back({.about = !takes_effects(answer)    ? "Error"

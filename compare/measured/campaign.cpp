@@ -7,6 +7,7 @@
 
 #include "compare/measured/csv.hpp"
 #include "compare/measured/run_columns.hpp"
+#include "compare/measured/time_log.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/condition_axes.hpp"
 #include "scenario/effect_choices.hpp"
@@ -70,9 +71,11 @@ Renames read_renames(const YamlNode* columns, const Reading& reading) {
   return renames;
 }
 
-/// Takes the columns that `ignored:` names out of the table.
-void leave_out(CsvTable& table, const YamlNode* ignored, const Renames& renames, const Reading& reading) {
-  if (ignored == nullptr) return;
+/// Takes the columns that `ignored:` names out of the table; gives what they look like.
+std::vector<IgnoredColumn> leave_out(CsvTable& table, const YamlNode* ignored, const Renames& renames,
+                                     const Reading& reading, const SourceText& csv) {
+  std::vector<IgnoredColumn> left;
+  if (ignored == nullptr) return left;
   if (!ignored->is_sequence()) reading.refuse(*ignored, "expected a list of column names, not " + ignored->kind_name());
   for (const YamlNode& item : ignored->items) {
     const std::string name = read_text(item, reading);
@@ -81,45 +84,24 @@ void leave_out(CsvTable& table, const YamlNode* ignored, const Renames& renames,
     const auto& cells = table.header.cells;
     const auto place = std::ranges::find(cells, name, &CsvCell::text) - cells.begin();
     if (place == std::ssize(cells)) continue;  // a misspelt name leaves its column unknown, and that is refused
+    const auto column = static_cast<std::size_t>(place);
+    std::vector<std::string> texts;
+    for (const CsvRow& row : table.rows) texts.push_back(row.cells[column].text);
+    left.push_back({name, csv.position(cells[column].offset), std::move(texts)});
     const auto erase = [&](CsvRow& row) { row.cells.erase(row.cells.begin() + place); };
     erase(table.header);
     std::ranges::for_each(table.rows, erase);
   }
+  return left;
 }
 
 /// The column that a header most likely names: by the quantity that it begins with, else the nearest word.
 const RunColumn* likely_column(const std::string& header, const std::vector<std::string>& right) {
   const std::string nearest = nearest_word(header, right);
-  const RunColumn* likely = nullptr;
-  for (const RunColumn& column : run_columns())
-    if (header.starts_with(column.quantity) && (!likely || column.quantity.size() > likely->quantity.size()))
-      likely = &column;
-  if (likely) return likely;
+  if (const RunColumn* begun = column_begun_by(header)) return begun;
   for (const RunColumn& column : run_columns())
     if (column.canonical == nearest) return &column;
   return nullptr;
-}
-
-/// The unit that a header ends in, such as 'km/h' in 'speed_km_h'; "" where it ends in none of the right dimension.
-std::string unit_at_the_end(const std::string& header, const RunColumn& column) {
-  const Unit expected = parse_unit(column.measure.unit);
-  std::string tail = header;
-  std::erase_if(tail, [](char c) { return c == ']' || c == ')'; });
-  for (std::size_t cut = tail.find_first_of("_ [("); cut != std::string::npos; cut = tail.find_first_of("_ [(")) {
-    tail.erase(0, cut + 1);
-    if (column.measure.unit == "-") {
-      if (tail == "%" || tail == "pct" || tail == "percent") return "%";
-      continue;
-    }
-    std::string divided = tail, product = tail;
-    std::replace(divided.begin(), divided.end(), '_', '/');
-    if (product.ends_with("Nm")) product.insert(product.size() - 1, " ");
-    for (const std::string& unit : {tail, divided, product}) try {
-        if (same_dimension(parse_unit(unit).dimension, expected.dimension)) return unit;
-      } catch (const InputError&) {  // the next spelling
-      }
-  }
-  return "";
 }
 
 /// "{quantity: load, unit: kN}": what an unknown column most likely holds, in the form of `columns:`; in capitals what
@@ -146,6 +128,13 @@ ColumnChoice choose_column(const CsvCell& header, Renames& renames, const Source
     right.push_back(column.canonical);
   }
   for (const auto& [name, renamed] : renames) right.push_back(name);
+  if (names_a_clock(header.text))
+    csv.refuse(
+        header.offset,
+        fmt::format("column '{}' holds a time: these rows look like samples of a log, not runs", clipped(header.text)),
+        fmt::format("a campaign wants one row a run: soilbin runs '{}' makes them. Where each row is a run, "
+                    "leave the column aside: ignored: [{}]",
+                    csv.file, yaml_scalar(clipped(header.text))));
   csv.refuse(header.offset,
              fmt::format("unknown column '{}'{}", clipped(header.text), did_you_mean(header.text, right)),
              fmt::format("say what it holds in campaign.yaml, such as columns: {{{}: {}}}, or leave it aside: ignored: "
@@ -201,6 +190,7 @@ void add_speeds(Campaign& campaign, const CsvTable& table, const SourceText& csv
       Run& run = campaign.runs[i];
       const bool locked = run.rotation == 0.0 && run.at.slip <= -1.0;
       if (run.rotation && !locked) run.at.speed = speed_at_rotation(run.at, *run.rotation, campaign.wheel);
+      run.rotation.reset();
     } catch (const InputError& error) {
       refuse(i + 1, error.what());
     }
@@ -290,7 +280,8 @@ Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(c
     return campaign;
   }
   CsvTable table = parse_csv(csv);
-  leave_out(table, value_of(document, "ignored", Need::optional, "list of column names", reading), renames, reading);
+  campaign.ignored = leave_out(table, value_of(document, "ignored", Need::optional, "list of column names", reading),
+                               renames, reading, csv);
   const std::vector<ColumnChoice> columns = choose_columns(table, renames, csv);
   std::vector<std::string> headers;
   for (const CsvCell& header : table.header.cells) headers.push_back(header.text);
@@ -313,9 +304,26 @@ Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(c
   return campaign;
 }
 
-Campaign read_campaign(const fs::path& path, const Library& library, const EffectVocabulary& effects, CampaignUse use) {
+namespace {
+
+/// campaign.yaml of a folder, or the file itself.
+fs::path campaign_file(const fs::path& path) {
   std::error_code error;
-  const fs::path file = fs::is_directory(path, error) ? path / "campaign.yaml" : path;
+  return fs::is_directory(path, error) ? path / "campaign.yaml" : path;
+}
+
+}  // namespace
+
+std::map<std::string, DataColumn> declared_columns(const fs::path& path, const Library& library,
+                                                   const EffectVocabulary& effects) {
+  const auto no_rows = [](const std::string& name) { return SourceText{name, ""}; };
+  return parse_campaign(read_source_text(campaign_file(path), largest_yaml), no_rows, library, effects,
+                        CampaignUse::design)
+      .columns;
+}
+
+Campaign read_campaign(const fs::path& path, const Library& library, const EffectVocabulary& effects, CampaignUse use) {
+  const fs::path file = campaign_file(path);
   const auto open = [&](const std::string& name) {
     const fs::path data = file.parent_path() / name;
     if (use == CampaignUse::design && !fs::exists(data)) return SourceText{data.string(), ""};

@@ -36,7 +36,7 @@ struct Run {
   /// Standard deviation in time of each traction channel over the run that its mean was taken of [SI], in the order of
   /// traction_channels. Samples follow each other, so it is no error of the mean; it tells which runs were unsteady.
   std::array<std::optional<double>, 4> within_run_sd{};
-  std::optional<double> rotation{};  ///< of the wheel, where the file gives it [rad/s]; at.speed then follows from it
+  std::optional<double> rotation{};  ///< of the wheel [rad/s]; a campaign that is read has turned it into at.speed
 };
 
 inline bool has_channel(const Run& run) { return run.drawbar_pull || run.torque || run.sinkage || run.lateral_force; }
@@ -46,6 +46,13 @@ struct DataColumn {
   std::string header;
   std::string unit;   ///< of the numbers in it
   SourcePosition at;  ///< of its header
+};
+
+/// A column that campaign.yaml has left aside.
+struct IgnoredColumn {
+  std::string header;
+  SourcePosition at;               ///< of its header
+  std::vector<std::string> texts;  ///< of each row
 };
 
 /// What was measured, and what is known beforehand.
@@ -62,6 +69,7 @@ struct Campaign {
   std::map<std::string, DataColumn>
       columns;  ///< of the data file, by quantity; without a file, those that campaign.yaml names
   std::vector<Run> runs;
+  std::vector<IgnoredColumn> ignored{};  ///< they may tell that the rows are no runs (log_signs.hpp)
 };
 
 inline constexpr const char* campaign_format = "soilbin-campaign/1";
@@ -96,6 +104,10 @@ Campaign read_campaign(const std::filesystem::path& path, const Library& library
 Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(const std::string&)>& open,
                         const Library& library, const EffectVocabulary& effects,
                         CampaignUse use = CampaignUse::prediction);
+
+/// The columns that a campaign.yaml declares under `columns:`, by quantity; its data file is not read.
+std::map<std::string, DataColumn> declared_columns(const std::filesystem::path& path, const Library& library,
+                                                   const EffectVocabulary& effects);
 
 /// Writes campaign.yaml and the data file into a folder (made where it is missing). Reading them gives the same
 /// campaign; an angle may differ in the last bit. Throws std::runtime_error where a file can't be written.

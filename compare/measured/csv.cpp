@@ -14,10 +14,33 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
+/// ',', or ';' where the first line that isn't blank holds more of these, both outside quotes.
+char separator_of(std::string_view text) {
+  std::size_t commas = 0, semicolons = 0;
+  bool quoted = false;
+  for (std::size_t i = std::min(text.find_first_not_of("\r\n"), text.size()); i < text.size(); ++i) {
+    if (text[i] == '"') quoted = !quoted;
+    if (quoted) continue;
+    if (text[i] == '\n' || text[i] == '\r') break;
+    commas += text[i] == ',', semicolons += text[i] == ';';
+  }
+  return semicolons > commas ? ';' : ',';
+}
+
+/// "-4,4e3" as "-4.4e3" where that is a number.
+void take_decimal_comma(std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma == text.npos) return;
+  std::string point = text;
+  point[comma] = '.';
+  if (read_number(point)) text = std::move(point);
+}
+
 /// Reads rows one after the other.
 class CsvReader {
  public:
-  explicit CsvReader(const SourceText& source) : source_(source), text_(source.text) {}
+  explicit CsvReader(const SourceText& source)
+      : source_(source), text_(source.text), separator_(separator_of(source.text)) {}
 
   bool at_end() const { return at_ >= text_.size(); }
 
@@ -37,10 +60,11 @@ class CsvReader {
     while (true) {
       if (row.cells.size() >= most_cells)
         source_.refuse(at_, fmt::format("more cells in a row than the {} expected", most_cells),
-                       "commas part the cells, so a decimal point is '.': 4.4, not 4,4");
+                       separator_ == ',' ? "commas part the cells, so a decimal point is '.': 4.4, not 4,4"
+                                         : "semicolons part the cells, as in the first line");
       row.cells.push_back(read_cell());
       if (at_end()) return;
-      if (text_[at_] == ',') {
+      if (text_[at_] == separator_) {
         ++at_;
         continue;
       }
@@ -59,11 +83,13 @@ class CsvReader {
       while (!at_end() && !ends_cell(text_[at_])) ++at_;
       cell.text = text_.substr(begin, at_ - begin);
       while (!cell.text.empty() && is_blank(cell.text.back())) cell.text.pop_back();
+      if (separator_ == ';') take_decimal_comma(cell.text);
     }
     return cell;
   }
 
   void read_quoted(CsvCell& cell) {
+    cell.quoted = true;
     ++at_;
     while (true) {
       if (at_end()) source_.refuse(cell.offset, "a quote is opened here and never closed");
@@ -81,7 +107,7 @@ class CsvReader {
     if (!at_end() && !ends_cell(text_[at_])) source_.refuse(at_, "text behind a closing quote");
   }
 
-  static bool ends_cell(char c) { return c == ',' || c == '\n' || c == '\r'; }
+  bool ends_cell(char c) const { return c == separator_ || c == '\n' || c == '\r'; }
 
   void end_line() {
     if (text_[at_] == '\r') ++at_;
@@ -91,6 +117,7 @@ class CsvReader {
 
   const SourceText& source_;
   std::string_view text_;
+  char separator_;
   std::size_t at_ = 0;
   int line_ = 1;
 };
@@ -102,10 +129,9 @@ void check_header(const CsvRow& header, const SourceText& source) {
       source.refuse(cell.offset, "a column without a name",
                     "name it, or take it out of the file; a spreadsheet writes its empty columns too");
     for (const auto& [mark, name] : {std::pair{';', "semicolons"}, {'\t', "tabs"}})
-      if (cell.text.find(mark) != std::string::npos)
+      if (!cell.quoted && cell.text.find(mark) != std::string::npos)
         source.refuse(cell.offset, fmt::format("'{}' is no column's name", clipped(cell.text)),
-                      fmt::format("columns are parted by commas, not by {}, and the decimal point is '.'{}", name,
-                                  mark == ';' ? ": sed 's/,/./g; s/;/,/g' turns a spreadsheet's file" : ""));
+                      fmt::format("columns are parted by commas or, all of them, by semicolons, not by {}", name));
     if (!seen.insert(cell.text).second)
       source.refuse(cell.offset, fmt::format("column '{}' appears twice", clipped(cell.text)));
   }
@@ -113,26 +139,38 @@ void check_header(const CsvRow& header, const SourceText& source) {
 
 }  // namespace
 
-CsvTable parse_csv(const SourceText& source, std::size_t most_rows) {
+CsvRow read_csv_rows(const SourceText& source, std::size_t most_rows, const std::string& too_long,
+                     const std::function<void(const CsvRow& header)>& begin,
+                     const std::function<void(CsvRow&& row)>& take) {
   CsvReader reader(source);
-  CsvTable table;
-  if (!reader.next(table.header, most_csv_columns)) source.refuse(0, "the file is empty: a header line is expected");
-  check_header(table.header, source);
-  const std::size_t columns = table.header.cells.size();
-  CsvRow row;
+  CsvRow header, row;
+  if (!reader.next(header, most_csv_columns)) source.refuse(0, "the file is empty: a header line is expected");
+  check_header(header, source);
+  begin(header);
+  const std::size_t columns = header.cells.size();
+  std::size_t rows = 0;
   while (reader.next(row, columns)) {
     if (row.cells.size() != columns)
       source.refuse(row.cells.front().offset,
                     fmt::format("a row of {} cells under a header of {}", row.cells.size(), columns));
-    if (table.rows.size() >= most_rows)
-      source.refuse(
-          row.cells.front().offset, fmt::format("more than {} rows", most_rows),
-          fmt::format("this is a log. A campaign wants one row a run, the means of its steady part; of plates a "
-                      "part will do, such as each tenth row: awk 'NR == 1 || NR % 10 == 0' '{}' > fewer.csv",
-                      source.file));
-    const bool blank = std::ranges::all_of(row.cells, [](const CsvCell& cell) { return cell.text.empty(); });
-    if (!blank) table.rows.push_back(std::move(row));
+    if (rows >= most_rows)
+      source.refuse(row.cells.front().offset, fmt::format("more than {} rows", most_rows), too_long);
+    if (std::ranges::all_of(row.cells, [](const CsvCell& cell) { return cell.text.empty(); })) continue;
+    ++rows;
+    take(std::move(row));
   }
+  return header;
+}
+
+CsvTable parse_csv(const SourceText& source, std::size_t most_rows) {
+  CsvTable table;
+  const std::string too_long = fmt::format(
+      "this is a log. A campaign wants one row a run, the means of its steady part: soilbin runs '{0}' makes them; of "
+      "plates a part will do, such as each tenth row: awk 'NR == 1 || NR % 10 == 0' '{0}' > fewer.csv",
+      source.file);
+  table.header = read_csv_rows(
+      source, most_rows, too_long, [](const CsvRow&) {},
+      [&](CsvRow&& row) { table.rows.push_back(std::move(row)); });
   return table;
 }
 
@@ -155,15 +193,45 @@ double number_in(const CsvCell& cell, const std::string& column, const std::stri
                 hint);
 }
 
+namespace {
+
+/// A text as a cell between these separators.
+std::string quoted_where_needed(const std::string& text, char separator) {
+  const bool edge_blank = !text.empty() && (is_blank(text.front()) || is_blank(text.back()));
+  if (!edge_blank && text.find_first_of(std::string("\"\r\n") + separator) == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace
+
 std::string csv_cell(const std::string& text) {
   // A spreadsheet takes what begins like this for a formula, and some formulas start programs.
   if (!text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos && !read_number(text))
     return csv_cell("'" + text);
-  const bool edge_blank = !text.empty() && (is_blank(text.front()) || is_blank(text.back()));
-  if (!edge_blank && text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
+  return quoted_where_needed(text, ',');
+}
+
+std::string with_decimal_commas(const std::string& csv) {
+  const SourceText source{"", csv};
+  CsvReader reader(source);
+  std::string text = "\xEF\xBB\xBF";
+  CsvRow row;
+  while (reader.next(row, most_csv_columns)) {
+    for (std::size_t i = 0; i < row.cells.size(); ++i) {
+      const CsvCell& cell = row.cells[i];
+      if (i > 0) text += ';';
+      std::string written = cell.text;
+      if (!cell.quoted && read_number(written)) std::ranges::replace(written, '.', ',');
+      std::string as_read = written;
+      take_decimal_comma(as_read);
+      const bool only_text = cell.quoted && as_read != written;  // a label such as "4,4"
+      text += only_text ? '"' + written + '"' : quoted_where_needed(written, ';');
+    }
+    text += '\n';
+  }
+  return text;
 }
 
 }  // namespace soilbin::compare

@@ -67,7 +67,7 @@ std::vector<RunColumn> make_columns() {
                  .canonical = "rotation_rpm",
                  .measure = {"rpm", zero_or_more},
                  .set = [](Run& run, double x) { run.rotation = x; },
-                 .get = [](const Run&) { return std::nullopt; }});  // its speed is written
+                 .get = [](const Run& run) { return run.rotation; }});
   for (const ChannelView& view : channel_views) all.push_back(channel(view));
   for (std::size_t place = 0; place < channel_views.size(); ++place) all.push_back(scatter(place));
   return all;
@@ -128,6 +128,49 @@ bool worth_writing(const RunColumn& column, const std::vector<Run>& runs) {
 const std::vector<RunColumn>& run_columns() {
   static const std::vector<RunColumn> all = make_columns();
   return all;
+}
+
+const RunColumn* column_begun_by(const std::string& header) {
+  const RunColumn* likely = nullptr;
+  for (const RunColumn& column : run_columns())
+    if (header.starts_with(column.quantity) && (!likely || column.quantity.size() > likely->quantity.size()))
+      likely = &column;
+  return likely;
+}
+
+std::string unit_at_the_end(const std::string& header, const RunColumn& column) {
+  const Unit expected = parse_unit(column.measure.unit);
+  std::string tail = header;
+  std::erase_if(tail, [](char c) { return c == ']' || c == ')'; });
+  for (std::size_t cut = tail.find_first_of("_ [("); cut != std::string::npos; cut = tail.find_first_of("_ [(")) {
+    tail.erase(0, cut + 1);
+    if (column.measure.unit == "-") {
+      if (tail == "%" || tail == "pct" || tail == "percent") return "%";
+      continue;
+    }
+    std::string divided = tail, product = tail;
+    std::replace(divided.begin(), divided.end(), '_', '/');
+    if (product.ends_with("Nm")) product.insert(product.size() - 1, " ");
+    for (const std::string& unit : {tail, divided, product}) try {
+        if (same_dimension(parse_unit(unit).dimension, expected.dimension)) return unit;
+      } catch (const InputError&) {  // the next spelling
+      }
+  }
+  return "";
+}
+
+std::optional<ColumnChoice> column_by_its_name(const std::string& header) {
+  const RunColumn* column = column_begun_by(header);
+  if (!column || column->content != RunColumn::Content::number) return std::nullopt;
+  const std::string behind = header.substr(column->quantity.size());
+  if (behind.empty() || std::string_view("_ [(").find(behind.front()) == std::string_view::npos) return std::nullopt;
+  // "drawbar_pull_filtered_N" is another quantity: the unit is all that stands behind the name.
+  std::string bare = behind;
+  std::erase_if(bare, [](char c) { return std::string_view("_ [](),/").find(c) != std::string_view::npos; });
+  const std::string unit = unit_at_the_end(header, *column);
+  std::string of_unit = unit == "%" ? bare : unit;
+  std::erase_if(of_unit, [](char c) { return c == '/' || c == ' '; });
+  return unit.empty() || bare != of_unit ? std::nullopt : std::optional(ColumnChoice{column, unit});
 }
 
 std::vector<Run> read_runs(const CsvTable& table, std::span<const ColumnChoice> columns, const SourceText& source) {

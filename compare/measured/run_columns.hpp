@@ -39,6 +39,15 @@ struct ColumnChoice {
   std::string unit;  ///< of the numbers in it
 };
 
+/// The column whose quantity a header begins with, the longest; nothing for none.
+const RunColumn* column_begun_by(const std::string& header);
+
+/// The unit that a header ends in, such as "km/h" in "speed_km_h"; "" where it ends in none of the right dimension.
+std::string unit_at_the_end(const std::string& header, const RunColumn& column);
+
+/// What a header that is a quantity with a unit of its own holds: "drawbar_pull_kN", "slip [%]".
+std::optional<ColumnChoice> column_by_its_name(const std::string& header);
+
 /// Turns the table's rows into runs. Throws InputError at the cell for whatever can't be one.
 std::vector<Run> read_runs(const CsvTable& table, std::span<const ColumnChoice> columns, const SourceText& source);
 

@@ -26,7 +26,7 @@ std::string number(const Estimate& estimate, double per_unit) {
   return fmt::format("{:.{}f} ± {:.{}f}", value, places, error, places);
 }
 
-std::string csv_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+std::string csv_number(double value) { return std::isfinite(value) ? fmt::format("{:.15g}", value + 0.0) : ""; }
 
 double per_unit(const std::string& unit) {
   const Unit parsed = parse_unit(unit);
@@ -59,8 +59,10 @@ std::string spaced(std::string_view name) {
   return words;
 }
 
-std::string newtons(double force) {
-  return force >= 1000.0 ? fmt::format("{:.4g} kN", force / 1000) : fmt::format("{:.4g} N", force);
+std::string newtons(double force, int digits) {
+  const double kilo = 1000.0 - 0.5 * std::pow(10.0, 3 - digits);  // what so many digits make 1000
+  return std::abs(force) >= kilo ? fmt::format("{:.{}g} kN", force / 1000, digits)
+                                 : fmt::format("{:.{}g} N", force, digits);
 }
 
 std::string capital(std::string text) {

@@ -16,7 +16,8 @@ std::string number(double value, int digits = 4);
 /// "4.18 ± 0.31": the error to two digits, the value to the error's place; the value alone for an error of 0.
 std::string number(const Estimate& estimate, double per_unit = 1.0);
 
-/// A number for a file, with all its digits; "" for what is not a number.
+/// A number for a table that people read, to 15 digits: 15 for a slope of 15 deg, though its radians make it
+/// 14.999999999999998. "" for what is not a number.
 std::string csv_number(double value);
 
 /// What a value in SI is multiplied by to be in a unit: 57.3 for "deg", 1 for "-". Throws as parse_unit.
@@ -39,8 +40,8 @@ std::string size_text(double bytes);
 /// A name as people write it: "cross_slope" becomes "cross slope".
 std::string spaced(std::string_view name);
 
-/// A load: "80 N", "4 kN".
-std::string newtons(double force);
+/// A force to so many digits: "80 N", "4 kN", "-8.89 kN"; never with an exponent below 1e7 N.
+std::string newtons(double force, int digits = 4);
 
 /// "drawbar pull" as "Drawbar pull".
 std::string capital(std::string text);

@@ -82,9 +82,7 @@ std::optional<Peak> shown_peak(const StudyPart& part) {
   return solved[(solved.size() - 1) / 2];
 }
 
-std::string force(double newton) {
-  return std::abs(newton) >= 1000.0 ? fmt::format("{:.3g} kN", newton / 1000) : fmt::format("{:.3g} N", newton);
-}
+std::string force(double newton) { return newtons(newton, 3); }
 
 /// "1.32 ± 0.22 kN".
 std::string force(const Estimate& pull) {
@@ -341,10 +339,9 @@ std::vector<KeyFigure> key_figures(const std::vector<StudyPart>& studies, const 
     for (const ChannelError& error : part.prediction.errors)
       if (channel_views[error.channel].name == "drawbar_pull")
         figures.push_back(
-            {fmt::format("{:.3g} N", error.rmse),
-             fmt::format("error of the predicted drawbar pull without fitting: RMS over {} runs, {:.0f} % of the "
-                         "measured range ({})",
-                         error.runs, 100 * error.share_of_range, part.campaign.name)});
+            {force(error.rmse), fmt::format("error of the predicted drawbar pull without fitting: RMS over {} runs, "
+                                            "{:.0f} % of the measured range ({})",
+                                            error.runs, 100 * error.share_of_range, part.campaign.name)});
   return figures;
 }
 

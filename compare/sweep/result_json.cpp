@@ -6,6 +6,7 @@
 
 #include "compare/measured/channels.hpp"
 #include "compare/measured/csv.hpp"
+#include "compare/report/number_text.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/unit.hpp"
 
@@ -78,9 +79,10 @@ std::string condition_columns(bool with_pressure) {
 }
 
 std::string condition_cells(const OperatingCondition& at, bool with_pressure) {
-  const std::string pressure = at.inflation_pressure ? fmt::format("{}", *at.inflation_pressure / 1000) : "";
-  return fmt::format("{},{},{},{},{},{},{}", at.load, at.slip, at.speed, at.longitudinal_incline / degree,
-                     at.transverse_incline / degree, at.yaw / degree, at.pass) +
+  const std::string pressure = at.inflation_pressure ? csv_number(*at.inflation_pressure / 1000) : "";
+  return fmt::format("{},{},{},{},{},{},{}", csv_number(at.load), csv_number(at.slip), csv_number(at.speed),
+                     csv_number(at.longitudinal_incline / degree), csv_number(at.transverse_incline / degree),
+                     csv_number(at.yaw / degree), at.pass) +
          (with_pressure ? "," + pressure : "");
 }
 
@@ -89,10 +91,11 @@ std::string csv_row(const std::string& model, const Answer& answer, const std::s
   if (!answer.result) return row + std::string(12, ',') + ',' + csv_cell(answer.error) + ',' + csv_cell(remark) + "\n";
   const TractionResult& r = *answer.result;
   for (const ChannelView& channel : channel_views)
-    row += fmt::format(",{},{}", (r.*channel.predicted).value, (r.*channel.predicted).std_error);
-  row += has_efficiency(r) ? fmt::format(",{}", reported_efficiency(r)) : std::string(",");
-  return row + fmt::format(",{},{},{},,{}\n", r.entry_angle / degree, r.max_stress_angle / degree,
-                           r.exit_angle / degree, csv_cell(remark));
+    row += "," + csv_number((r.*channel.predicted).value) + "," + csv_number((r.*channel.predicted).std_error);
+  row += "," + (has_efficiency(r) ? csv_number(reported_efficiency(r)) : "");
+  return row + fmt::format(",{},{},{},,{}\n", csv_number(r.entry_angle / degree),
+                           csv_number(r.max_stress_angle / degree), csv_number(r.exit_angle / degree),
+                           csv_cell(remark));
 }
 
 /// Files from before budget_rest hold the rest of a run of grains as a part.
@@ -209,10 +212,10 @@ std::string prediction_csv(const Prediction& prediction, const std::vector<std::
                         condition_cells(run.measured.at, with_pressure));
     for (const ChannelView& channel : channel_views) {
       const std::optional<double>& measured = run.measured.*channel.measured;
-      text += (measured ? fmt::format("{}", *measured) : "") + ',';
+      text += (measured ? csv_number(*measured) : "") + ',';
       if (const auto& result = run.predicted.result) {
         const Estimate& predicted = (*result).*channel.predicted;
-        text += fmt::format("{},{},", predicted.value, predicted.std_error);
+        text += csv_number(predicted.value) + ',' + csv_number(predicted.std_error) + ',';
       } else {
         text += ",,";
       }

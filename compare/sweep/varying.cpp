@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -58,18 +60,39 @@ struct AxisLevels {
   std::vector<double> value;
 };
 
+/// The least gap between sorted values that scatter about levels: of all gaps those far larger than any other, where
+/// two values or more stand at a level on average; infinite where there are no such gaps.
+double gap_between_levels(const std::vector<double>& sorted) {
+  constexpr double far = 5.0, least = 0.02;  // times the next gap; of the largest value
+  std::vector<double> gaps;
+  for (std::size_t k = 1; k < sorted.size(); ++k) gaps.push_back(sorted[k] - sorted[k - 1]);
+  std::ranges::sort(gaps, std::greater());
+  double found = std::numeric_limits<double>::infinity(), largest_ratio = far;
+  for (std::size_t k = 0; 2 * (k + 2) <= sorted.size(); ++k) {
+    const double ratio = gaps[k + 1] > 0.0 ? gaps[k] / gaps[k + 1] : std::numeric_limits<double>::infinity();
+    if (!(gaps[k] > least * std::max(std::abs(sorted.front()), std::abs(sorted.back())))) break;
+    if (ratio >= largest_ratio) largest_ratio = ratio, found = gaps[k];
+  }
+  return found;
+}
+
 AxisLevels levels(const ConditionAxis& axis, const std::vector<OperatingCondition>& conditions, Spread spread) {
   std::vector<std::size_t> order(conditions.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   const auto at = [&](std::size_t i) { return axis.get(conditions[i]); };
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return at(a) < at(b); });
   AxisLevels found{std::vector<std::size_t>(conditions.size()), {}};
-  std::vector<double> members;
+  std::vector<double> members, sorted;
+  for (const std::size_t i : order) sorted.push_back(at(i));
+  // Loads 10 % apart are levels too, where each is held far better than that.
+  const double between_levels = spread == Spread::measured && axis.relative_gap > 0.0
+                                    ? gap_between_levels(sorted)
+                                    : std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < order.size(); ++k) {
     const double x = at(order[k]), before = k > 0 ? at(order[k - 1]) : x;
     const double gap =
         spread == Spread::exact ? 1e-9 * std::abs(x) : std::max(axis.relative_gap * std::abs(x), axis.absolute_gap);
-    if (k == 0 || x - before > gap) found.value.push_back(0.0), members.push_back(0.0);
+    if (k == 0 || x - before > gap || x - before >= between_levels) found.value.push_back(0.0), members.push_back(0.0);
     found.value.back() += x, members.back() += 1;
     found.of[order[k]] = found.value.size() - 1;
   }

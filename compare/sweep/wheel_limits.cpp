@@ -315,16 +315,17 @@ std::string limits_csv(const std::vector<WheelLimits>& answers, const std::vecto
     const WheelLimits& answer = answers[i];
     const OperatingCondition& at = answer.at;
     const std::string pressure = at.inflation_pressure ? csv_number(*at.inflation_pressure / 1000) : "";
-    const std::string asked = fmt::format("{},{},{},{},{},{}", csv_cell(answer.model.label), at.load,
-                                          answer.at_every_speed ? "" : fmt::format("{}", at.speed),
-                                          at.transverse_incline / degree, at.yaw / degree, at.pass) +
-                              (with_pressure ? "," + pressure : "");
+    const std::string asked =
+        fmt::format("{},{},{},{},{},{}", csv_cell(answer.model.label), csv_number(at.load),
+                    answer.at_every_speed ? "" : csv_number(at.speed), csv_number(at.transverse_incline / degree),
+                    csv_number(at.yaw / degree), at.pass) +
+        (with_pressure ? "," + pressure : "");
     if (!answer.error.empty()) text += asked + ",,,,,,," + csv_cell(answer.error) + ",\n";
     for (std::size_t k = 0; k < answer.slopes.size(); ++k) {
       const SlopeRow& row = answer.slopes[k];
-      text += fmt::format("{},{},{},{},{},{},,{}\n", asked, row.slope / degree,
-                          row.slip ? fmt::format("{},{}", *row.slip, csv_number(row.slip_error)) : ",",
-                          row.best.drawbar_pull, row.pull_error, row.best.slip,
+      text += fmt::format("{},{},{},{},{},{},,{}\n", asked, csv_number(row.slope / degree),
+                          row.slip ? csv_number(*row.slip) + "," + csv_number(row.slip_error) : ",",
+                          csv_number(row.best.drawbar_pull), csv_number(row.pull_error), csv_number(row.best.slip),
                           csv_cell(remark(answer.model, at_limits[i].answers[k])));
     }
   }

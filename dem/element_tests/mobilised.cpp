@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "dem/rig/mean_value.hpp"
+#include "scenario/mean_value.hpp"
 
 namespace soilbin::dem {
 

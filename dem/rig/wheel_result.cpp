@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "dem/rig/mean_value.hpp"
 #include "scenario/estimate.hpp"
+#include "scenario/mean_value.hpp"
 #include "scenario/tractive_efficiency.hpp"
 
 namespace soilbin::dem {

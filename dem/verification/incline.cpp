@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "dem/bed/insertion.hpp"
-#include "dem/rig/mean_value.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/mean_value.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::dem {

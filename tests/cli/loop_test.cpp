@@ -114,9 +114,9 @@ TEST(SlowLoopCommand, OpensWithAColumnThatLooksMistaken) {
   const std::string folder = "loop '" + (scratch / "c").string() + "' --folds 2 ";
   const Outcome said = soilbin(folder + "--report '" + page + "'");
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_LT(said.out.find("Check first. A column"), said.out.find("What is missing."));
+  EXPECT_LT(said.out.find("Check first. The data"), said.out.find("What is missing."));
   EXPECT_THAT(said.out, HasSubstr("column 'torque_Nm' looks 1000 times too large"));
-  EXPECT_THAT(text_of(page), HasSubstr("<b>Check first.</b> A column looks wrong"));
+  EXPECT_THAT(text_of(page), HasSubstr("<b>Check first.</b> The data look wrong"));
   EXPECT_THAT(soilbin(folder + "--json").json().at("column_doubts").at(0).get<std::string>(), HasSubstr("'torque_Nm'"));
 }
 

@@ -5,13 +5,16 @@
 #include <cmath>
 #include <set>
 
+#include "compare/report/number_text.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/answer_tables.hpp"
 #include "compare/sweep/answers_page.hpp"
 #include "compare/sweep/explanation.hpp"
 #include "compare/sweep/prediction.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 #include "tests/fixtures.hpp"
 
 namespace soilbin::compare {
@@ -91,6 +94,35 @@ TEST(Sweep, SmoothCurvesGoThroughTheStudysConditions) {
   EXPECT_GE(slips.size(), 11U);
   for (const double slip : {0.0, 0.2, 0.5}) EXPECT_EQ(slips.count(slip), 1U);
   EXPECT_EQ(curves_against_slip(smooth.study.conditions, Spread::exact).labels.size(), 2U);
+}
+
+// Three loads 10 % apart, each held to 1 %: a curve of its own for each, not one zigzag. Loads that go on from one to
+// the next are one.
+TEST(Sweep, MeasuredCurvesAreSplitByLoad) {
+  std::vector<OperatingCondition> runs, scattered;
+  for (int i = 0; i < 30; ++i) {
+    const double scatter = 1.0 + 0.01 * std::sin(12.9898 * (i + 1));
+    runs.push_back(condition((i % 3 == 0 ? 34e3 : i % 3 == 1 ? 37.5e3 : 41e3) * scatter, 0.02 * (i / 3)));
+    scattered.push_back(condition(13.0 + 0.5 * i + 0.1 * scatter, 0.02 * (i / 3)));
+  }
+  const Curves curves = curves_against_slip(runs, Spread::measured);
+  EXPECT_EQ(curves.labels.size(), 3U);
+  for (std::size_t i = 3; i < runs.size(); ++i) EXPECT_EQ(curves.curve_of[i], curves.curve_of[i - 3]);
+  EXPECT_EQ(curves_against_slip(scattered, Spread::measured).labels.size(), 1U);
+}
+
+// 15 deg in radians and back are 14.999999999999998: a table for people says 15.
+TEST(Sweep, TablesOfNumbersAreRoundedToWhatTheyMean) {
+  EXPECT_EQ(csv_number(15 * degree / degree), "15");
+  EXPECT_EQ(csv_number(0.1 + 0.2), "0.3");
+  EXPECT_EQ(csv_number(8890.0), "8890");
+  OperatingCondition at = condition(80, 0.2);
+  at.longitudinal_incline = 15 * degree, at.transverse_incline = -7 * degree, at.yaw = 35 * degree;
+  Case question;
+  question.scenario = wheel_on_sand();
+  question.study.models = {{ModelKind::bekker_wong, {}, "m"}}, question.study.conditions = {at};
+  EXPECT_THAT(study_csv(run_study(question), [](const ModelChoice&, const Answer&) { return std::string(); }),
+              HasSubstr("\nm,80,0.2,0.1,15,-7,35,1,"));
 }
 
 // What drives is piled up above zero and what holds back below it; the piles' ends add up to the sum of the parts.

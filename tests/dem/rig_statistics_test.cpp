@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "dem/rig/mean_value.hpp"
 #include "dem/rig/wheel_result.hpp"
+#include "scenario/mean_value.hpp"
 
 namespace soilbin::dem {
 namespace {

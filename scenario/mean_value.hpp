@@ -7,7 +7,7 @@
 
 #include "scenario/estimate.hpp"
 
-namespace soilbin::dem {
+namespace soilbin {
 
 /// One number of each sample.
 template <class Sample, class Read>
@@ -44,4 +44,4 @@ struct SteadyPart {
 };
 SteadyPart steady_part(const std::vector<std::vector<double>>& series);
 
-}  // namespace soilbin::dem
+}  // namespace soilbin

@@ -1,20 +1,20 @@
-#include "dem/rig/mean_value.hpp"
+#include "scenario/mean_value.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
 
-namespace soilbin::dem {
+namespace soilbin {
 namespace {
 
-double mean(std::span<const double> series) {
+double mean_of_series(std::span<const double> series) {
   return std::accumulate(series.begin(), series.end(), 0.0) / static_cast<double>(series.size());
 }
 
 /// Sum of squares about the mean.
 double scatter(std::span<const double> series) {
-  const double middle = mean(series);
+  const double middle = mean_of_series(series);
   double sum = 0;
   for (const double x : series) sum += (x - middle) * (x - middle);
   return sum;
@@ -22,7 +22,8 @@ double scatter(std::span<const double> series) {
 
 std::vector<double> block_means(std::span<const double> series, std::size_t block) {
   std::vector<double> means;
-  for (std::size_t k = 0; k + block <= series.size(); k += block) means.push_back(mean(series.subspan(k, block)));
+  for (std::size_t k = 0; k + block <= series.size(); k += block)
+    means.push_back(mean_of_series(series.subspan(k, block)));
   return means;
 }
 
@@ -34,7 +35,7 @@ namespace {
 class Autocorrelations {
  public:
   explicit Autocorrelations(std::span<const double> series)
-      : series_(series), middle_(mean(series)), zero_(scatter(series)) {}
+      : series_(series), middle_(mean_of_series(series)), zero_(scatter(series)) {}
   /// lag: 1 .. n/2 - 1, or one more than the largest asked for before.
   double operator()(std::size_t lag) {
     while (found_.size() < lag) {
@@ -96,7 +97,7 @@ BlockAverage block_average(std::span<const double> series, Autocorrelations& rho
   const std::size_t most = std::max<std::size_t>(n / fewest, 1);
   const std::vector<double> means = block_means(series, std::min(wanted, most));
   const double blocks = static_cast<double>(means.size());
-  return {{mean(series), std::sqrt(scatter(means) / (blocks * (blocks - 1)))}, wanted <= most};
+  return {{mean_of_series(series), std::sqrt(scatter(means) / (blocks * (blocks - 1)))}, wanted <= most};
 }
 
 BlockAverage block_average(std::span<const double> series) {
@@ -152,4 +153,4 @@ SteadyPart steady_part(const std::vector<std::vector<double>>& series) {
   return part;
 }
 
-}  // namespace soilbin::dem
+}  // namespace soilbin
