@@ -134,8 +134,8 @@ std::string taken_as_rigid(const Scenario& scenario, const Answer& answer) {
   if (!flattened.result) return pressure + ", and carries no more there: " + flattened.error;
   const double pull = flattened.result->drawbar_pull.value;
   if (std::abs(pull - rigid) < hardly * answer.at.load) return "";
-  return fmt::format("{}: as a rigid wheel it pulls {:.4g} N, with --effect tire_flexibility {:.4g} N", pressure, rigid,
-                     pull);
+  return fmt::format("{}: as a rigid wheel it pulls {}, with --effect tire_flexibility {}", pressure, newtons(rigid),
+                     newtons(pull));
 }
 
 /// What the analytic wheel answers at one condition.

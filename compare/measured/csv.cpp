@@ -169,8 +169,7 @@ CsvTable parse_csv(const SourceText& source, std::size_t most_rows) {
       "plates a part will do, such as each tenth row: awk 'NR == 1 || NR % 10 == 0' '{0}' > fewer.csv",
       source.file);
   table.header = read_csv_rows(
-      source, most_rows, too_long, [](const CsvRow&) {},
-      [&](CsvRow&& row) { table.rows.push_back(std::move(row)); });
+      source, most_rows, too_long, [](const CsvRow&) {}, [&](CsvRow&& row) { table.rows.push_back(std::move(row)); });
   return table;
 }
 

@@ -138,7 +138,7 @@ void check(const BedRecipe& recipe) {
                     recipe.dt, usual, least_share * usual));
   if (recipe.settled_by == SettledBy::lammps) require_spheres(recipe.soil);
   if (!(recipe.gravity > 0)) throw InputError("a bed settles under gravity: it must be above 0");
-  check_pace(recipe.soil, recipe.gravity, recipe.dt > 0 ? recipe.dt : usual);
+  check_pace(recipe.soil, recipe.gravity, usual);
   const bool in_lammps = recipe.settled_by == SettledBy::lammps;
   const double count = expected_grains(recipe), most = in_lammps ? most_in_lammps : most_grains;
   if (count > most)

@@ -23,7 +23,7 @@ TEST(CommandWords, AreRefusedInOurs) {
       {"loop made-lesson --seed -1", "--seed: expected a whole number, such as 1, not '-1'"},
       {"loop made-lesson --folds abc", "--folds: expected a whole number from 2 to 50, not 'abc'"},
       {"loop made-lesson --folds 51", "--folds: expected a whole number from 2 to 50, not '51'"},
-      {"calibrate paper-sand --ask 0", "--ask: expected a whole number of at least 1, not '0'"},
+      {"calibrate paper-sand --ask 0", "--ask: expected a whole number from 1 to 10000, not '0'"},
       {"calibrate paper-sand --seed 1.5", "--seed: expected a whole number of at least 1, not '1.5'"},
       {"calibrate paper-sand --decide-at load=1N..2N", "--decide-at needs --decide"},
       {"run rover-slip --record a.json --recorded b.json", " exclude each other"},

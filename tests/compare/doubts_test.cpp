@@ -151,7 +151,7 @@ TEST(Doubts, WhatAnEffectPresumesOfTheTireIsToldUntilItIsDeclared) {
   const auto presumes = [&] {
     const std::vector<std::string> all = doubts(question);
     return std::any_of(all.begin(), all.end(),
-                       [](const std::string& d) { return d.starts_with("lug thrust presumes"); });
+                       [](const std::string& d) { return d.starts_with("lug thrust assumes"); });
   };
   EXPECT_TRUE(presumes());
   question.scenario.tire.lugs.height = 0.0125;

@@ -264,7 +264,7 @@ TEST(Varying, CurvesRunOverInflationPressure) {
   const ConditionView* over = curves_run_over(all);
   ASSERT_EQ(over, &condition_view("inflation_pressure"));
   EXPECT_EQ(curves_against(*over, all, Spread::exact).labels.size(), 1U);
-  EXPECT_EQ(in_words(all[1]), "load 2000 N, slip 20 %, inflation 300 kPa");
+  EXPECT_EQ(in_words(all[1]), "load 2 kN, slip 20 %, inflation 300 kPa");
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ class Answers(unittest.TestCase):
 
 
 class Warnings(unittest.TestCase):
-    WORDS = ("--soil", "sandy-loam", "--radius", "670mm", "--width", "430mm", "--inflation-pressure", "150kPa", "--load", "37.5kN")
+    WORDS = ("--soil", "sandy-loam", "--radius", "670mm", "--width", "430mm", "--inflation-pressure", "150kPa", "--load", "37.5kN", "--effect", "none")
 
     def setUp(self):
         self.wheel = soilbin.Scenario(soilbin.Tire(name="wheel", radius=0.67, width=0.43, inflation_pressure=150e3), "sandy-loam")

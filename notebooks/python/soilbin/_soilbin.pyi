@@ -119,9 +119,9 @@ class Tire:
         """pressure that the carcass itself carries (Wong's p_c) [Pa], at least 0 Pa"""
     @carcass_pressure.setter
     def carcass_pressure(self, value: Optional[Estimate]) -> None: ...
-    def __init__(self, *, name: str = ..., source: str = ..., radius: float, width: float, lugs: Lugs = ..., inflation_pressure: Optional[float] = ..., carcass_pressure: Optional[Estimate] = ...) -> None:
+    def __init__(self, *, name: str = ..., source: str = ..., radius: float, width: float, lugs: Lugs = ..., inflation_pressure: Optional[float] = ..., carcass_pressure: Optional[Union[Estimate, float]] = ...) -> None:
         """By keywords: the attributes, in SI."""
-    def replace(self, *, name: str = ..., source: str = ..., radius: float = ..., width: float = ..., lugs: Lugs = ..., inflation_pressure: Optional[float] = ..., carcass_pressure: Optional[Estimate] = ...) -> Tire:
+    def replace(self, *, name: str = ..., source: str = ..., radius: float = ..., width: float = ..., lugs: Lugs = ..., inflation_pressure: Optional[float] = ..., carcass_pressure: Optional[Union[Estimate, float]] = ...) -> Tire:
         """A copy in which the attributes given are changed."""
 
 class SemiEmpiricalSoil:
@@ -130,7 +130,7 @@ class SemiEmpiricalSoil:
     """
     @property
     def exponent(self) -> Estimate:
-        """n of p = (k_c/b + k_phi) z^n [-], 0.1 .. 2"""
+        """n of p = (k_c/b + k_phi) z^n [-], 0.05 .. 5"""
     @exponent.setter
     def exponent(self, value: Estimate) -> None: ...
     @property
