@@ -79,6 +79,7 @@ void add_numbers(Json& to, const T& from, const char* group, const std::string& 
     using Value = std::decay_t<decltype(from.*member)>;
     const Value& value = from.*member;
     const std::string flag = key_of(prefix, key);
+    if (std::is_same_v<T, OperatingCondition> && key == std::string_view("inflation_pressure")) return;  // the tire's
     if constexpr (std::is_same_v<Value, double>) {
       const std::string unit = shown_unit(limits.unit);
       const double per_si = compare::per_unit(unit);

@@ -334,10 +334,10 @@ TEST(LimitsCommand, TheSlipOnASlopeIsTheSlipOfNoPullThere) {
   EXPECT_NEAR(there.json()["rows"].at(0)["drawbar_pull"].get<double>(), 0.0, 1e-3);
   EXPECT_NEAR(row["slopes"].back()["largest_pull"].get<double>(), 0.0, 1e-5);
   EXPECT_THAT(text_of(csv),
-              HasSubstr(fmt::format(",{},{},{},{},{},,\n", second["slip"].get<double>(),
-                                    second["std_error"]["slip"].get<double>(), second["largest_pull"].get<double>(),
-                                    second["std_error"]["largest_pull"].get<double>(),
-                                    second["slip_of_largest_pull"].get<double>())));
+              HasSubstr(fmt::format(  // tables hold 15 digits
+                  ",{:.15g},{:.15g},{:.15g},{:.15g},{:.15g},,\n", second["slip"].get<double>(),
+                  second["std_error"]["slip"].get<double>(), second["largest_pull"].get<double>(),
+                  second["std_error"]["largest_pull"].get<double>(), second["slip_of_largest_pull"].get<double>())));
   const std::string table = text_of(csv);
   EXPECT_EQ(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')), 1 + row["slopes"].size());
   EXPECT_THAT(text_of(plot), StartsWith("\x89PNG"));

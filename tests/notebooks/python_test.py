@@ -113,21 +113,21 @@ class Warnings(unittest.TestCase):
     WORDS = ("--soil", "sandy-loam", "--radius", "670mm", "--width", "430mm", "--inflation-pressure", "150kPa", "--load", "37.5kN", "--effect", "none")
 
     def setUp(self):
-        self.wheel = soilbin.Scenario(soilbin.Tire(name="wheel", radius=0.67, width=0.43, inflation_pressure=150e3), "sandy-loam")
+        self.wheel = soilbin.Scenario(soilbin.Tire(name="wheel", radius=0.67, width=0.43), "sandy-loam")
 
     def test_an_estimate_warns_of_what_the_command_warns_of(self):
         known = command("estimate", *self.WORDS, "--slip", "20%")["warnings"]
         self.assertTrue(known)
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            soilbin.estimate(self.wheel, load=37.5e3, slip=0.2)
+            soilbin.estimate(self.wheel, load=37.5e3, slip=0.2, inflation_pressure=150e3)
         self.assertEqual([str(one.message) for one in caught], known)
         self.assertTrue(all(one.category is soilbin.SoilbinWarning and one.filename == __file__ for one in caught))
 
     def test_a_frame_keeps_them(self):
         known = command("estimate", *self.WORDS, "--slip", "10%,20%")["warnings"]
         with self.assertWarns(soilbin.SoilbinWarning):
-            frame = soilbin.sweep(self.wheel, soilbin.conditions(load=37.5e3, slip=[0.1, 0.2]))
+            frame = soilbin.sweep(self.wheel, soilbin.conditions(load=37.5e3, slip=[0.1, 0.2], inflation_pressure=150e3))
         self.assertEqual(frame.attrs["warnings"], known)
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
