@@ -77,8 +77,8 @@ class RigidFlag {
   /// What to tell of it, a sentence each. `base_model`: every effect was switched off by name. Throws InputError for a
   /// question that names the effect tire_flexibility.
   std::vector<std::string> apply(Case& question, bool base_model = false) const {
-    if (rigid_) compare::make_rigid(question);
-    return rigid_ || base_model ? std::vector<std::string>() : compare::flexible_where_declared(question);
+    if (rigid_) return compare::make_rigid(question);
+    return base_model ? std::vector<std::string>() : compare::flexible_where_declared(question);
   }
 
  private:

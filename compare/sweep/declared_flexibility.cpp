@@ -63,13 +63,16 @@ std::vector<std::string> flexible_where_declared(Case& question) {
                   pressures_in_words(tire, conditions), flexibility, form)};
 }
 
-void make_rigid(Case& question) {
+std::vector<std::string> make_rigid(Case& question) {
   if (std::ranges::any_of(question.study.models, names_flexibility))
     throw InputError(
         "--rigid: a model of the question has the effect tire_flexibility\n  hint: leave one of the two out");
   if (std::ranges::any_of(question.study.conditions, [](const auto& at) { return at.inflation_pressure.has_value(); }))
     throw InputError("--rigid: a rigid wheel has no inflation pressure, and a condition tells one");
-  question.scenario.tire.inflation_pressure.reset();
+  std::optional<double>& pressure = question.scenario.tire.inflation_pressure;
+  if (!pressure) return {"--rigid is ignored: the tire declares no inflation pressure and is rigid"};
+  pressure.reset();
+  return {};
 }
 
 }  // namespace soilbin::compare

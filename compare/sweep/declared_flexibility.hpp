@@ -20,8 +20,8 @@ namespace soilbin::compare {
 /// from a fit. Gives a sentence that says so.
 std::vector<std::string> flexible_where_declared(Case& question);
 
-/// The question with a rigid wheel: without the tire's inflation pressure. Throws InputError where a model names
-/// tire_flexibility or a condition an inflation pressure.
-void make_rigid(Case& question);
+/// The question with a rigid wheel: without the tire's inflation pressure. Gives a sentence where there was none.
+/// Throws InputError where a model names tire_flexibility or a condition an inflation pressure.
+std::vector<std::string> make_rigid(Case& question);
 
 }  // namespace soilbin::compare

@@ -138,7 +138,7 @@ class Shards(Attack):
     def test_wrong_words_are_refused(self):
         self.expect(2, ["--shard: expected K/N", "hint"], *self.shard(4, 3))
         self.expect(2, ["--shard needs a record", "hint"], *self.run_words("--shard", "1/2"))
-        self.expect(2, ["runs of grains", "--model dem"], "run", "rover-slip", "--dry-run")
+        self.expect(2, ["--dry-run has no effect on the analytic model", "--model dem"], "run", "rover-slip", "--dry-run")
         self.expect(2, ["did you mean 'merge'", "hint"], "record", "mrge", "a", "b")
         self.expect(2, ["expected OUT.json SHARD.json", "hint"], "record", "merge", "a.json")
         self.expect(2, ["holds no sweep", "hint"], "sweep", "status", self.here)

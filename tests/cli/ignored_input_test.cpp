@@ -68,6 +68,9 @@ const std::map<std::string, std::string>& samples() {
       {"--run", "4"},
       {"--effect", "slip_sinkage"},
       {"--no-assumed-sd", ""},
+      {"--rigid", ""},
+      {"--max-slip", "30%"},
+      {"--decimal-comma", ""},
       {"--soil", "sandy-loam"},
       {"--tire", "rover-wheel"},
       {"--bin-depth", "0.4m --bin-width=0.5m"},  // one needs the other

@@ -165,9 +165,9 @@ TEST(SlowModelDiscrepancy, ShowsTheEffectBesideAnOddSoil) {
   EXPECT_EQ(answer.found().best().ids, std::set<std::string>{"multipass"});
   EXPECT_LT(answer.found().signatures.p_value, 0.01);
   EXPECT_EQ(answer.ambiguity_set.front().ids, std::set<std::string>{"multipass"});
-  EXPECT_NE(
-      all_words(answer).find("the base model is wrong by a smooth function of load and slip; beside that multipass"),
-      std::string::npos)
+  EXPECT_NE(all_words(answer).find(
+                "The base model is wrong by a smooth function of load and slip; beside that multipass is strongest"),
+            std::string::npos)
       << all_words(answer);
   expect_same_shares(answer);
   expect_the_decided_model(campaign, answer);
