@@ -115,7 +115,8 @@ int failure_map(const FailureMapOptions& asked, const CLI::App& command, const S
   std::string values_of;  // the soil that --soil names
   if (!asked.soil.empty()) {
     const Soil given = find_soil(asked.soil, session.place.library);
-    question.scenario.soil.semi_empirical = given.semi_empirical, values_of = compare::in_words(given);
+    question.scenario.soil.semi_empirical = given.semi_empirical,
+    values_of = given.name.empty() ? asked.soil : given.name;
   }
   if (!asked.stored && !asked.store.empty())  // what is only read may lie anywhere
     if (const std::string why = why_not_writable(asked.store); !why.empty()) throw InputError("--store: " + why);
