@@ -106,6 +106,8 @@ class Effect {
   virtual void soil_depth(ContactPatch&, const Surroundings&) const {}
   /// sigma is filled; change it in place. In press: of the geometry only the depths and the angle of entry are there.
   virtual void pressure(ContactPatch&, const SoilValues&, const Outline&, const Surroundings&) const {}
+  /// Whether soil_depth or pressure changes anything; a carcass has its closed form where none does.
+  virtual bool presses() const { return false; }
   /// strength and modulus are filled; change them in place.
   virtual void strength(ContactPatch&, const SoilValues&, const Outline&, const Surroundings&) const {}
   /// mobilised is filled from |j|/K; change it in place. displacement: |j| at the nodes [m].

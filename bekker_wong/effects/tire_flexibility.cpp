@@ -141,7 +141,10 @@ class Tread {
     constexpr double step = 1e-5;  // relative, of d
     law_(d, reached);
     Array decisive;
-    if (d.empty() || around_.effects.size() < 2 || around_.stress_share == 0.0 || power_law_acts(d, decisive)) return;
+    const auto presses = [](const auto& effect) { return effect->presses(); };
+    if (d.empty() || around_.stress_share == 0.0 || std::ranges::none_of(around_.effects, presses) ||
+        power_law_acts(d, decisive))
+      return;
     Array low, high, below, above;
     for (std::size_t i = 0; i < d.size(); ++i) low[i] = d[i] * (1 - step), high[i] = d[i] * (1 + step);
     const std::span<const double> lower{low.data(), d.size()}, higher{high.data(), d.size()};

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -11,6 +12,8 @@
 #include <set>
 
 #include "bekker_wong/bed_fixture.hpp"
+#include "bekker_wong/contact_stages.hpp"
+#include "bekker_wong/kinematics.hpp"
 #include "bekker_wong/model.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
@@ -358,6 +361,32 @@ TEST(Effects, EveryFormHasALimit) {
           EXPECT_NEAR(hundred->sinkage, thousand->sinkage, 1e-6 * s.tire.radius);
         }
   }
+}
+
+// A carcass has its closed form beside effects that leave the pressure alone: those that don't say so.
+TEST(Effects, ThatChangeThePressureSayThatTheyDo) {
+  const Setting& s = settings().front();
+  const std::optional<Bin> in_bin = bin;
+  const Outline outline{
+      .radius = s.tire.radius, .width = s.tire.width, .shear_radius = s.tire.radius, .slip_radius = s.tire.radius};
+  int change = 0;
+  for (const EffectForm& form : effect_catalogue()) {
+    const OperatingCondition at = condition(s, questions.back());
+    const EffectList effects = make_effects({{form.id, form.form, {}}});
+    Surroundings around{.tire = s.tire, .declared = s.soil, .at = at, .motion = kinematics(at), .bin = in_bin};
+    around.effects = effects, around.normal_load = at.load;
+    ContactPatch plain;
+    plain.count = 3, plain.angles.entry = 0.6;
+    for (const std::size_t i : {0, 1, 2})
+      plain.depth[i] = plain.circle_depth[i] = 0.005 + 0.015 * static_cast<double>(i);
+    ContactPatch pressed = plain;
+    fill_pressure(plain, s.soil, outline);
+    press(pressed, outline, around);
+    const bool changes = !std::ranges::equal(plain.of(&ContactPatch::sigma), pressed.of(&ContactPatch::sigma));
+    change += changes;
+    EXPECT_TRUE(effects.front()->presses() || !changes) << key(form);
+  }
+  EXPECT_GE(change, 5);
 }
 
 // Gravity acts through the soil's weight alone: on the Moon as where the soil is as much lighter. What sets soil in
