@@ -547,7 +547,8 @@ TEST(Estimate, AnswersAtSeveralInflationPressures) {
   ASSERT_EQ(r.status, 0) << r.err;
   const nlohmann::json rows = r.json()["rows"];
   ASSERT_EQ(rows.size(), 3U);
-  for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_DOUBLE_EQ(rows[i]["inflation_pressure"], 1e5 * (i + 1.0));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    EXPECT_DOUBLE_EQ(rows[i]["inflation_pressure"], 1e5 * static_cast<double>(i + 1));
   EXPECT_LT(rows[0]["sinkage"], rows[1]["sinkage"]) << "softer is shallower";
   EXPECT_LT(rows[1]["sinkage"], rows[2]["sinkage"]);
   const Scratch scratch;

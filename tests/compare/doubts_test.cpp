@@ -144,7 +144,7 @@ TEST(Doubts, WhatAnEffectPresumesOfTheTireIsToldUntilItIsDeclared) {
   Case question;
   question.scenario.tire.radius = 0.25;
   question.scenario.tire.width = 0.1;
-  question.scenario.soil.semi_empirical = dry_sand();
+  question.scenario.soil.semi_empirical.emplace(dry_sand());
   question.study.models = {{ModelKind::bekker_wong, {{.id = "lug_thrust", .form = "", .parameters = {}}}, ""}};
   OperatingCondition& at = question.study.conditions.emplace_back();
   at.load = 1000, at.slip = 0.2;
