@@ -18,7 +18,6 @@ namespace soilbin::compare {
 namespace {
 
 using test::condition;
-using test::dry_sand;
 using test::wheel_on_sand;
 using testing::AllOf;
 using testing::Contains;
@@ -142,9 +141,9 @@ TEST(Doubts, InflationIsHeardByAFlexibleTireAlone) {
 
 TEST(Doubts, WhatAnEffectPresumesOfTheTireIsToldUntilItIsDeclared) {
   Case question;
+  question.scenario = wheel_on_sand();
   question.scenario.tire.radius = 0.25;
   question.scenario.tire.width = 0.1;
-  question.scenario.soil.semi_empirical.emplace(dry_sand());
   question.study.models = {{ModelKind::bekker_wong, {{.id = "lug_thrust", .form = "", .parameters = {}}}, ""}};
   OperatingCondition& at = question.study.conditions.emplace_back();
   at.load = 1000, at.slip = 0.2;
