@@ -10,16 +10,16 @@
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
-#include "compare/experiments/virtual_bevameter.hpp"
+#include "compare/telling/bevameter_report.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {
 namespace {
 
 struct BevameterOptions {
-  std::string soil, output, plot;
+  std::string soil, output;
   int packings = 2;
-  bool json = false;
+  OutputFlags outputs;
   ElementTestFlags flags;
   PlateFlags plates;
 };
@@ -39,17 +39,9 @@ int bevameter(const BevameterOptions& options, const Session& session) {
   const std::string source = fmt::format(
       "virtual bevameter on the grains of {}: {} round plates, ring with grousers, {} packings, settling friction {}",
       soil.name, asked.plates.diameters.size(), options.packings, number(asked.specimen.settling_friction));
-  Outputs outputs;
+  Outputs outputs = publish(compare::report_on(fit, measured, soil, options.packings), options.outputs, {}, session);
   outputs.file(options.output, [&] { return write_soil(with_bevameter(soil, fit, measured.density, source)); });
-  outputs.drawing(options.plot, [&] {
-    return compare::bevameter_sheet("bevameter: " + soil.name, measured.plates, measured.shear, fit);
-  });
-  if (options.json) {
-    print_json(compare::bevameter_json(soil, fit, measured.density));
-  } else {
-    fmt::print("bevameter: {}, {} packings\n{}", soil.name, options.packings, compare::in_words(fit, soil));
-    if (!options.output.empty() && outputs.complete()) fmt::print("wrote {}\n", options.output);
-  }
+  if (!options.outputs.json && !options.output.empty() && outputs.complete()) fmt::print("wrote {}\n", options.output);
   return outputs.status(done);
 }
 
@@ -61,10 +53,10 @@ void add_bevameter(CLI::App& app, Session& session) {
   const auto options = std::make_shared<BevameterOptions>();
   add_value(*command, "soil", options->soil, "SOIL", "a soil of the library, or a YAML file")->required();
   add_file(*command, "--output", options->output, "FILE.yaml", "save the soil with these values");
-  add_plot(*command, options->plot, "draw the curves (points) and the fit (lines)");
   add_value(*command, "--packings", options->packings, "N", "number of beds, 2; their scatter is the error")
       ->check(whole_number(1, compare::most_packings));
-  command->add_flag("--json", options->json, "soilbin-bevameter/1, in SI");
+  options->outputs.add_to(
+      *command, {.json = "soilbin-bevameter/1, in SI", .plot = "draw the curves (points) and the fit (lines)"});
   options->flags.add_to(*command);
   options->plates.add_to(*command);
   command->footer("Example: soilbin bevameter paper-sand --settling-friction 0 --output paper-sand-dense.yaml");

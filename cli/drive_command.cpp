@@ -7,28 +7,22 @@
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
-#include "cli/text_output.hpp"
-#include "cli/versions.hpp"
-#include "compare/drives/drive.hpp"
-#include "compare/drives/drive_sides.hpp"
 #include "compare/experiments/grain_drives.hpp"
-#include "compare/sweep/result_json.hpp"
-#include "compare/sweep/varying.hpp"
+#include "compare/telling/drive_report.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::cli {
 namespace {
 
-constexpr std::size_t shown_rows = 12;
-
 struct DriveOptions {
-  std::string name, model = "bekker_wong", plot, report;
-  CsvOutput csv;
+  std::string name, model = "bekker_wong";
+  OutputFlags outputs;
   int samples = 400;
-  bool json = false, ledger = false;
+  bool ledger = false;
   SoilBinFlags soil_bin;
 };
 
@@ -44,40 +38,10 @@ int threads_of(const DriveOptions& options) {
   return options.soil_bin.threads > 0 ? options.soil_bin.threads : all_cores();
 }
 
-/// Writes what is asked for as files.
-template <class Answer>
-Outputs save(const DriveOptions& options, const Answer& answer, const std::string& title,
-             const std::vector<std::string>& doubts, const Session& session) {
-  Outputs outputs;
-  outputs.csv(options.csv, [&] { return compare::drive_csv(answer); });
-  outputs.drawing(options.plot, [&] { return compare::drive_sheet(answer); });
-  outputs.file(options.report, [&] {
-    return compare::drive_page(answer, {title, session.command, versions(), doubts});
-  });
-  return outputs;
-}
-
-std::string drive_text(const compare::AnalyticDrive& part) {
-  std::string text = fmt::format("{}: {} on {}\n\n{}\n", part.question.name, in_words(part.question.scenario.tire),
-                                 compare::in_words(part.question.scenario.soil),
-                                 as_text(compare::samples_table(part.record, shown_rows)));
-  for (const DriveHappening& h : part.record.happenings)
-    text += fmt::format("At {} s and {} m {}.\n", number(h.time), number(h.travelled), word_of(h.what));
-  for (const std::string& sentence : compare::in_words(part)) text += sentence + "\n";
-  return text + "\n" + as_text(compare::energy_table(part.record.samples.back().energy, compare::WorkTable::in_text));
-}
-
 int drive_analytically(const DriveOptions& options, const Case& question, const Session& session) {
   const compare::AnalyticDrive part =
       compare::run_drive(question, options.samples, progress_in_time(), threads_of(options));
-  const std::vector<std::string> doubts = compare::doubts(part);
-  print_warnings(doubts);
-  const Outputs outputs = save(options, part, question.name, doubts, session);
-  if (options.json)
-    print_json(compare::to_json(part), doubts);
-  else
-    fmt::print("{}", drive_text(part));
-  return outputs.status(done);
+  return publish(compare::report_on(part), options.outputs, compare::doubts(part), session).status(done);
 }
 
 /// The bed is as long as the way needs, where no length is asked for.
@@ -88,27 +52,6 @@ dem::DemSettings settings_for(const DriveOptions& options, const Drive& drive) {
       options.soil_bin.text("--bed-length").empty() && length > 0.0)
     settings.size.length = length;
   return settings;
-}
-
-std::string without_caption(compare::Table table) {
-  table.caption.clear();
-  return "\n" + as_text(table);
-}
-
-std::string sides_text(const compare::DriveSides& drive) {
-  std::string text =
-      fmt::format("{}: {} on {}\n\n{}\n", drive.question.name, in_words(drive.question.scenario.tire),
-                  compare::in_words(drive.question.scenario.soil), as_text(compare::samples_table(drive, shown_rows)));
-  for (const compare::DriveSide& side : drive.sides)
-    for (const DriveHappening& h : side.happenings)
-      text +=
-          fmt::format("{}: at {} s and {} m {}.\n", side.label, number(h.time), number(h.travelled), word_of(h.what));
-  for (const std::string& sentence : compare::in_words(drive)) text += sentence + "\n";
-  if (drive.over_packings) text += without_caption(compare::packings_table(drive));
-  if (!drive.differences.empty()) text += without_caption(compare::differences_table(drive));
-  text += "\n" + as_text(compare::work_table(drive, compare::WorkTable::in_text)) + "\n";
-  for (const std::string& note : drive.notes) text += note + "\n";
-  return text;
 }
 
 int drive_with_grains(const DriveOptions& options, const Case& question, const Session& session) {
@@ -123,12 +66,7 @@ int drive_with_grains(const DriveOptions& options, const Case& question, const S
   const compare::DriveSides drive = compare::side_by_side(question, std::move(sides), grains.notes());
   std::vector<std::string> doubts = compare::doubts(drive);
   for (std::string& doubt : bed_doubts(options.soil_bin, question)) doubts.push_back(std::move(doubt));
-  print_warnings(doubts);
-  const Outputs outputs = save(options, drive, question.name, doubts, session);
-  if (options.json)
-    print_json(compare::to_json(drive), doubts);
-  else
-    fmt::print("{}", sides_text(drive));
+  const Outputs outputs = publish(compare::report_on(drive), options.outputs, doubts, session);
   if (std::fflush(stdout) == 0 && outputs.complete())
     grains.forget();
   else
@@ -159,12 +97,11 @@ void add_drive(CLI::App& app, Session& session) {
   add_value(*command, "--model", options->model, "NAME",
             "bekker_wong; dem: on grains, in the virtual soil bin; or both")
       ->capture_default_str();
-  add_plot(*command, options->plot, "draw speed, slip, sinkage, torque, forces and energy against time");
-  add_csv(*command, options->csv, "save every sample");
-  add_file(*command, "--report", options->report, "FILE.html", "save a page to open in a browser");
   add_value(*command, "--samples", options->samples, "WHOLE", "intervals of time that are recorded; 400")
       ->check(whole_number(1, 1000000));
-  command->add_flag("--json", options->json, "soilbin-drive/1, with grains soilbin-drive-sides/1; in SI");
+  options->outputs.add_to(*command, {.json = "soilbin-drive/1, with grains soilbin-drive-sides/1; in SI",
+                                     .plot = "draw speed, slip, sinkage, torque, forces and energy against time",
+                                     .csv = "save every sample"});
   options->soil_bin.add_rig_to(*command);
   add_value(*command, "--packings", options->soil_bin.packings, "N",
             "number of beds, from --packing on; answers are means over them; 1")

@@ -9,9 +9,7 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
-#include "cli/text_output.hpp"
-#include "compare/experiments/element_test_reports.hpp"
-#include "compare/report/json_fields.hpp"
+#include "compare/telling/element_test_report.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 
@@ -19,17 +17,19 @@ namespace soilbin::cli {
 namespace {
 
 struct ElementTestOptions {
-  std::string test, soil, plot;
+  std::string test, soil;
+  OutputFlags outputs;
   std::vector<std::string> stresses;
   int packings = 1;
   double inertial = 0;
-  bool json = false, ledger = false;
+  bool ledger = false;
   ElementTestFlags flags;
   PlateFlags plates;
 };
 
 struct AskedTest {
   const ElementTestOptions& options;
+  const std::string& soil;  ///< its name
   const GranularSoil& grains;
   dem::SpecimenSettings specimen;
   dem::WorkOptions how;
@@ -55,50 +55,50 @@ Settings strength_settings(const AskedTest& asked, std::initializer_list<double 
   return s;
 }
 
-compare::TestReport direct_shear(const AskedTest& asked) {
+compare::Report direct_shear(const AskedTest& asked) {
   using S = dem::DirectShearSettings;
   const S settings = strength_settings<S>(asked, {&S::length, &S::width, &S::height});
-  return compare::report_on(dem::direct_shear(asked.grains, settings, asked.how, &asked.beds));
+  return compare::report_on(dem::direct_shear(asked.grains, settings, asked.how, &asked.beds), asked.soil);
 }
 
-compare::TestReport triaxial(const AskedTest& asked) {
+compare::Report triaxial(const AskedTest& asked) {
   using S = dem::TriaxialSettings;
   const S settings = strength_settings<S>(asked, {&S::side, &S::height});
-  return compare::report_on(dem::triaxial(asked.grains, settings, asked.how, &asked.beds));
+  return compare::report_on(dem::triaxial(asked.grains, settings, asked.how, &asked.beds), asked.soil);
 }
 
-compare::TestReport tilting_board(const AskedTest& asked) {
+compare::Report tilting_board(const AskedTest& asked) {
   dem::TiltingBoardSettings s;
   s.packing = asked.specimen.packing, s.laws = asked.specimen.laws;
   s.across = static_cast<int>(std::lround(s.across * asked.options.flags.size));
-  return compare::report_on(dem::tilting_board(asked.grains, s, asked.how));
+  return compare::report_on(dem::tilting_board(asked.grains, s, asked.how), asked.soil);
 }
 
-compare::TestReport repose(const AskedTest& asked) {
+compare::Report repose(const AskedTest& asked) {
   dem::AngleOfReposeSettings s;
   s.packing = asked.specimen.packing, s.laws = asked.specimen.laws;
   s.radius *= asked.options.flags.size, s.height *= asked.options.flags.size;
-  return compare::report_on(dem::angle_of_repose(asked.grains, s, asked.how));
+  return compare::report_on(dem::angle_of_repose(asked.grains, s, asked.how), asked.soil);
 }
 
-compare::TestReport plate(const AskedTest& asked) {
+compare::Report plate(const AskedTest& asked) {
   dem::PlateSettings s = asked.options.plates.plates(asked.grains);
   s.bed.specimen = asked.specimen;
   s.bed.width *= asked.options.flags.size, s.bed.depth *= asked.options.flags.size;
-  return compare::report_on(dem::plate_sinkage(asked.grains, s, asked.how, &asked.beds));
+  return compare::report_on(dem::plate_sinkage(asked.grains, s, asked.how, &asked.beds), asked.soil);
 }
 
-compare::TestReport shear(const AskedTest& asked) {
+compare::Report shear(const AskedTest& asked) {
   dem::AnnulusSettings s;
   s.bed.specimen = asked.specimen;
   s.stresses = stresses_of(asked.options, s.stresses);
   s.bed.width *= asked.options.flags.size, s.bed.depth *= asked.options.flags.size;
-  return compare::report_on(dem::annular_shear(asked.grains, s, asked.how, &asked.beds));
+  return compare::report_on(dem::annular_shear(asked.grains, s, asked.how, &asked.beds), asked.soil);
 }
 
 struct Test {
   const char* name;
-  compare::TestReport (*run)(const AskedTest&);
+  compare::Report (*run)(const AskedTest&);
   bool takes_specimens = false, takes_stresses = takes_specimens, takes_plates = false;
   bool takes_settling = takes_stresses || takes_plates;
 };
@@ -144,22 +144,11 @@ int element_test(const ElementTestOptions& options, const Session& session) {
   if (options.inertial < 0) throw InputError("--inertial: above 0");
   check_flags(options, test);
   const Soil soil = find_soil(options.soil, session.place.library);
-  print_warnings(options.flags.doubts(grains_of(soil)));
   dem::BedStore beds(folder_of_beds());
-  compare::TestReport report =
-      test.run({options, grains_of(soil), options.flags.specimen(grains_of(soil)), options.flags.work(), beds});
+  const compare::Report report = test.run(
+      {options, soil.name, grains_of(soil), options.flags.specimen(grains_of(soil)), options.flags.work(), beds});
   clear_progress_line();
-  Outputs outputs;
-  outputs.drawing(options.plot, [&] { return report.sheet; });
-  if (options.json) {
-    nlohmann::ordered_json document{{"format", "soilbin-element-test/1"}, {"test", test.name}, {"soil", soil.name}};
-    document.update(report.json);
-    print_json(document);
-  } else {
-    fmt::print("{}: {}\n{}{}", test.name, soil.name, report.table.header.empty() ? "" : as_text(report.table),
-               report.text);
-  }
-  return outputs.status(done);
+  return publish(report, options.outputs, options.flags.doubts(grains_of(soil)), session).status(done);
 }
 
 }  // namespace
@@ -178,8 +167,7 @@ void add_element_test(CLI::App& app, Session& session) {
   add_value(*command, "--inertial", options->inertial, "I",
             "direct-shear, triaxial: inertial number of the rate, 0.001");
   command->add_flag("--ledger", options->ledger, "direct-shear, triaxial: check the balance of energy (in --json)");
-  add_plot(*command, options->plot, "draw the curves");
-  command->add_flag("--json", options->json, "soilbin-element-test/1, in SI");
+  options->outputs.add_to(*command, {.json = "soilbin-element-test/1, in SI", .plot = "draw the curves"});
   options->flags.add_to(*command);
   options->plates.add_to(*command);
   command->footer("Example: soilbin element-test direct-shear paper-sand --stress 10kPa --stress 40kPa --plot box.svg");

@@ -10,16 +10,15 @@
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
-#include "cli/text_output.hpp"
-#include "compare/experiments/drawn_wheel_report.hpp"
+#include "compare/telling/wheel_mesh_report.hpp"
 #include "scenario/case.hpp"
 
 namespace soilbin::cli {
 namespace {
 
 struct AskedMesh {
-  std::string file, tire, unit, plot;
-  bool json = false;
+  std::string file, tire, unit;
+  OutputFlags outputs;
 };
 
 dem::DrawnWheel wheel_in(const AskedMesh& options, const Session& session) {
@@ -33,13 +32,7 @@ dem::DrawnWheel wheel_in(const AskedMesh& options, const Session& session) {
 int mesh(const AskedMesh& options, const Session& session) {
   const dem::DrawnWheel wheel = wheel_in(options, session);
   const std::string name = std::filesystem::path(options.file).filename().string();
-  Outputs outputs;
-  outputs.drawing(options.plot, [&] { return compare::wheel_sheet(wheel, name); });
-  if (options.json)
-    print_json(compare::to_json(wheel, name));
-  else
-    fmt::print("{}", compare::in_words(wheel, name));
-  return outputs.status(done);
+  return publish(compare::report_on(wheel, name), options.outputs, {}, session).status(done);
 }
 
 }  // namespace
@@ -57,8 +50,9 @@ void add_mesh(CLI::App& app, Session& session) {
             "unit of the drawing; the first of these that makes its radius 10 mm to 3 m")
       ->check(CLI::IsMember(units))
       ->excludes("--tire");
-  add_plot(*command, options->plot, "draw the wheel from the side and from the front, and where it was mended");
-  command->add_flag("--json", options->json, "soilbin-mesh/1, in SI");
+  options->outputs.add_to(*command,
+                          {.json = "soilbin-mesh/1, in SI",
+                           .plot = "draw the wheel from the side and from the front, and where it was mended"});
   command->footer("Example: soilbin mesh wheel.stl --plot wheel.svg");
   command->callback([=, &session] { session.action = [=, &session] { return mesh(*options, session); }; });
 }

@@ -12,6 +12,8 @@
 #include "cli/flag_values.hpp"
 #include "cli/picture.hpp"
 #include "cli/progress.hpp"
+#include "cli/text_output.hpp"
+#include "cli/versions.hpp"
 #include "compare/measured/csv.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
@@ -91,6 +93,31 @@ void add_plot(CLI::App& command, std::string& name, const char* meaning) {
                : fmt::format("'{}' names no format by its ending\n  hint: .svg, .png or .pdf", clipped(given));
   };
   add_file(command, "--plot", name, "FILE.svg|png|pdf", meaning)->check(refused);
+}
+
+void OutputFlags::add_to(CLI::App& command, const Meanings& meanings) {
+  if (meanings.plot) add_plot(command, plot, meanings.plot);
+  if (meanings.csv) add_csv(command, csv, meanings.csv);
+  add_file(command, "--report", report, "FILE.html", "save a page to open in a browser");
+  add_folder(command, "--markdown", markdown, "write it as Markdown with its figures and their data", {"report.md"});
+  command.add_flag("--json", json, meanings.json);
+}
+
+Outputs publish(const compare::Report& report, const OutputFlags& asked, const std::vector<std::string>& doubts,
+                const Session& session) {
+  print_warnings(doubts);
+  const compare::PageAbout about{report.title, session.command, versions(), doubts};
+  Outputs outputs;
+  outputs.csv(asked.csv, report.csv);
+  outputs.drawing(asked.plot, report.sheet);
+  outputs.file(asked.report, [&] { return compare::page_of(report, about); });
+  outputs.write(asked.markdown,
+                [&] { compare::write_markdown(asked.markdown, report, about, asked.csv.decimal_comma); });
+  if (asked.json)
+    print_json(report.data(), doubts);
+  else
+    fmt::print("{}", compare::text_of(report));
+  return outputs;
 }
 
 }  // namespace soilbin::cli

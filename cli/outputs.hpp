@@ -5,8 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
+#include <vector>
 
-#include "compare/report/plot.hpp"
+#include "compare/report/report.hpp"
 
 namespace soilbin::cli {
 
@@ -48,5 +49,26 @@ CLI::Option* add_decimal_comma(CLI::App& command, CsvOutput& csv);
 /// Adds --plot, which names a drawing: tried as by add_file (flag_values.hpp), with an ending that tells a format,
 /// .svg, .png or .pdf.
 void add_plot(CLI::App& command, std::string& name, const char* meaning);
+
+struct Session;
+
+/// How a command gives its answer out.
+struct OutputFlags {
+  bool json = false;
+  std::string plot, report, markdown;
+  CsvOutput csv;
+
+  struct Meanings {
+    const char* json;            ///< "soilbin-drive/1, in SI"
+    const char* plot = nullptr;  ///< nullptr: the answer has no drawing of its own
+    const char* csv = nullptr;   ///< nullptr: it has no samples
+  };
+  /// Adds --json, --report, --markdown and, where they have a meaning, --plot and --csv.
+  void add_to(CLI::App& command, const Meanings& meanings);
+};
+
+/// Tells the doubts on standard error, writes the files that were asked for, and prints the answer as text or JSON.
+Outputs publish(const compare::Report& report, const OutputFlags& asked, const std::vector<std::string>& doubts,
+                const Session& session);
 
 }  // namespace soilbin::cli

@@ -8,19 +8,19 @@
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
-#include "cli/text_output.hpp"
 #include "compare/doubts/plate_doubts.hpp"
+#include "compare/telling/plates_report.hpp"
 
 namespace soilbin::cli {
 namespace {
 
 struct PlatesOptions {
-  std::string file, pressure, plate, plot;
+  std::string file, pressure, plate;
   std::vector<std::string> only;
-  bool json = false;
+  OutputFlags outputs;
 };
 
-int plates(const PlatesOptions& options) {
+int plates(const PlatesOptions& options, const Session& session) {
   compare::PressureWindow window;
   if (!options.pressure.empty())
     std::tie(window.first, window.last) = read_range("--pressure", options.pressure, {"kPa", zero_or_more});
@@ -29,16 +29,8 @@ int plates(const PlatesOptions& options) {
   const std::vector<compare::MeasuredPlate> tests = compare::read_plates(
       read_source_text(options.file, compare::largest_plate_csv), column_values("--only", options.only), diameter);
   const compare::MeasuredPlatesFit fit = compare::fit_measured_plates(tests, window);
-  const std::vector<std::string> doubts = compare::doubts(fit);
-  print_warnings(doubts);
   const std::string name = std::filesystem::path(options.file).filename().string();
-  Outputs outputs;
-  outputs.drawing(options.plot, [&] { return compare::plates_sheet(tests, fit, name); });
-  if (options.json)
-    print_json(to_json(fit, tests.size()), doubts);
-  else
-    fmt::print("{}", in_words(fit, tests.size(), "soilbin plates " + name));
-  return outputs.status(done);
+  return publish(compare::report_on(fit, tests, name), options.outputs, compare::doubts(fit), session).status(done);
 }
 
 }  // namespace
@@ -56,10 +48,9 @@ void add_plates(CLI::App& app, Session& session) {
             "readings that are used; best those that your wheel makes");
   add_value(*command, "--plate", options->plate, "DIAMETER",
             "of the one round plate of all tests, where no column tells it");
-  add_plot(*command, options->plot, "draw the readings and Bekker's form");
-  command->add_flag("--json", options->json, "soilbin-plates/1, in SI");
+  options->outputs.add_to(*command, {.json = "soilbin-plates/1, in SI", .plot = "draw the readings and Bekker's form"});
   command->footer("Example: soilbin plates plates.csv --only box=large-box --pressure 1kPa..30kPa --plot plates.svg");
-  command->callback([=, &session] { session.action = [=] { return plates(*options); }; });
+  command->callback([=, &session] { session.action = [=, &session] { return plates(*options, session); }; });
 }
 
 }  // namespace soilbin::cli

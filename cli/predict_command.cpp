@@ -7,23 +7,17 @@
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
-#include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/loop/loop.hpp"
-#include "compare/sweep/answer_sheets.hpp"
-#include "compare/sweep/answer_tables.hpp"
-#include "compare/sweep/prediction.hpp"
-#include "compare/sweep/result_json.hpp"
-#include "compare/sweep/varying.hpp"
+#include "compare/telling/prediction_report.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {
 namespace {
 
 struct PredictOptions {
-  std::string campaign, model, plot;
-  CsvOutput csv;
-  bool json = false;
+  std::string campaign, model;
+  OutputFlags outputs;
 };
 
 /// A wheel to predict with, and where its soil and effects come from.
@@ -52,18 +46,8 @@ int predict(const PredictOptions& options, const Session& session) {
   const auto [scenario, from] = predictor_for(options, campaign, session.place);
   const auto model = compare::make_model(ModelKind::bekker_wong);
   const compare::Prediction prediction = compare::predict(*model, scenario, campaign, shown_progress());
-  const std::vector<std::string> doubts = compare::doubts(campaign, scenario, prediction);
-  print_warnings(doubts);
-  Outputs outputs;
-  outputs.csv(options.csv,
-              [&] { return compare::prediction_csv(prediction, compare::remarks_on(campaign, scenario, prediction)); });
-  outputs.drawing(options.plot, [&] { return compare::campaign_sheet(campaign, prediction); });
-  if (options.json)
-    print_json(compare::to_json(prediction, campaign.name), doubts);
-  else
-    fmt::print("{}: {} runs of {}, predicted with {}\n{}\n\n{}", campaign.name, prediction.runs.size(),
-               in_words(campaign.wheel), from, compare::errors_in_words(scenario),
-               compare::prediction_text(prediction));
+  const Outputs outputs = publish(compare::report_on(prediction, campaign, scenario, from), options.outputs,
+                                  compare::doubts(campaign, scenario, prediction), session);
   if (prediction.unsolved < prediction.runs.size()) return outputs.status(done);
   fmt::print(stderr, "soilbin: no run of the campaign has a solution\n");
   return failed;
@@ -82,9 +66,9 @@ void add_predict(CLI::App& app, Session& session) {
       ->add_option("--model", options->model,
                    "a resolved model (soilbin-case/1) in place of the declared soil and effects")
       ->type_name("FILE");
-  add_plot(*command, options->plot, "draw measured and predicted against slip");
-  add_csv(*command, options->csv, "save each run as measured and as predicted");
-  command->add_flag("--json", options->json, "soilbin-predict/1, in SI");
+  options->outputs.add_to(*command, {.json = "soilbin-predict/1, in SI",
+                                     .plot = "draw measured and predicted against slip",
+                                     .csv = "save each run as measured and as predicted"});
   command->footer("Example: soilbin predict cmu-smooth --plot predicted.svg");
   command->callback([=, &session] { session.action = [=, &session] { return predict(*options, session); }; });
 }

@@ -2,15 +2,12 @@
 //
 //   const BevameterFit fit = fit_bevameter(plates, rings);
 //   fit.soil.k_phi.value, fit.soil.friction_angle.std_error  // [SI]
-//   fmt::print("{}", in_words(fit, soil));                   // beside the values of the soil's file
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "bekker_wong/plate_fit.hpp"
-#include "compare/report/json_fields.hpp"
-#include "compare/report/plot.hpp"
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
@@ -48,16 +45,6 @@ struct BevameterFit {
 /// every curve of equal relative weight, errors by the scatter about it. K: mean over the curves, with its error.
 /// A cohesion below 0 is given as 0, since the model takes no other. Throws InputError.
 BevameterFit fit_bevameter(std::span<const PlateSet> plates, std::span<const ShearCurve> shear);
-
-/// Pressure against sinkage of each plate and shear stress against displacement under each normal stress: the curves as
-/// points, the fit as lines. Plates of one radius, and rings under nearly one stress, share a colour.
-Sheet bevameter_sheet(const std::string& title, std::span<const PlateSet> plates, std::span<const ShearCurve> shear,
-                      const BevameterFit& fit);
-
-/// The values of the fit beside those of the soil's file, and what the fit leaves.
-std::string in_words(const BevameterFit& fit, const Soil& soil);
-/// soilbin-bevameter/1.
-Json bevameter_json(const Soil& soil, const BevameterFit& fit, double density);
 
 /// The soil with these values as its semi-empirical part. What a bevameter does not tell (c1, c2) stays as it was, or
 /// is Azimi's choice for sand where there was nothing; `source` is noted at each number that comes from the fit.

@@ -17,8 +17,6 @@
 #include "compare/bevameter/loading_curve.hpp"
 #include "compare/bevameter/plate_tests.hpp"
 #include "compare/bevameter/test_agreement.hpp"
-#include "compare/report/json_fields.hpp"
-#include "compare/report/plot.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
@@ -80,16 +78,14 @@ struct MeasuredPlatesFit {
 /// fewer than six readings on its loading curve in the window.
 MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, const PressureWindow& window = {});
 
-/// Pressure over sinkage: every reading that was used, those set aside that do not lie far beyond them, and Bekker's
-/// form for each plate.
-Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFit& fit, const std::string& title);
+/// The readings at these places of a curve.
+bekker_wong::PlateCurve readings_of(const bekker_wong::PlateCurve& curve, const std::vector<std::size_t>& places);
+/// The readings of a curve in a window.
+bekker_wong::PlateCurve within(const bekker_wong::PlateCurve& curve, const PressureWindow& window);
+/// The pressure [Pa] that the fit gives a plate of this b [m] at this sinkage [m].
+double bekkers_form(const MeasuredPlatesFit& fit, double radius, double sinkage);
 
-/// The values with the parts of their errors, each plate by itself, what was set aside, and the lines that a campaign
-/// or a soil file takes, with `source` beside each number. tests: how many there were.
-std::string in_words(const MeasuredPlatesFit& fit, std::size_t tests, const std::string& source);
 /// "test '3' of the plate of b = 50 mm bears 10 times what the other tests let expect ..."
 std::string in_words(const PlateTestApart& one);
-/// soilbin-plates/1.
-Json to_json(const MeasuredPlatesFit& fit, std::size_t tests);
 
 }  // namespace soilbin::compare

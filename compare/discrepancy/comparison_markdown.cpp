@@ -12,69 +12,17 @@
 #include "compare/discrepancy/comparison_sheets.hpp"
 #include "compare/discrepancy/comparison_tables.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
+#include "compare/report/markdown.hpp"
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
-#include "scenario/atomic_file.hpp"
 
 namespace soilbin::compare {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A cell or sentence that can't be taken for markup.
-std::string plain(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '|' || c == '<' || c == '*' || c == '_' || c == '\\' || c == '`') out += '\\';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out;
-}
-
-std::string table_text(const Table& table) {
-  std::string text = table.caption.empty() ? "" : plain(table.caption) + ".\n\n", rule = "|";
-  for (std::size_t c = 0; c < table.header.size(); ++c) rule += table.is_text(c) ? ":--|" : "--:|";
-  for (const std::vector<std::string>& line : lines_of(table)) {
-    text += "|";
-    for (const std::string& cell : line) text += " " + plain(cell) + " |";
-    text += "\n" + rule + (rule.empty() ? "" : "\n");
-    rule.clear();
-  }
-  return text + "\n";
-}
-
-/// Grows report.md, and writes each figure and its data beside it.
-class Markdown {
- public:
-  Markdown(fs::path folder, bool decimal_comma) : folder_(std::move(folder)), decimal_comma_(decimal_comma) {}
-
-  void text(const std::string& paragraph) { body_ += paragraph + "\n\n"; }
-  void table(const Table& table) { body_ += table_text(table); }
-  void figure(const std::string& name, const Sheet& sheet) {
-    if (sheet.plots.empty()) return;
-    picture(name, svg(sheet), sheet.title.empty() ? name : sheet.title);
-    csv(name, sheet_csv(sheet));
-    write_file_atomically(folder_ / (name + ".json"), json_text(to_json(sheet)));
-    body_ += fmt::format("Data: [CSV]({0}.csv), [JSON]({0}.json).\n\n", name);
-  }
-  void csv(const std::string& name, const std::string& text) const {
-    write_file_atomically(folder_ / (name + ".csv"), decimal_comma_ ? with_decimal_commas(text) : text);
-  }
-  void picture(const std::string& name, const std::string& drawing, const std::string& title) {
-    write_file_atomically(folder_ / (name + ".svg"), drawing);
-    body_ += fmt::format("![{}]({}.svg)\n\n", plain(title), name);
-  }
-  void write() const { write_file_atomically(folder_ / "report.md", body_); }
-
- private:
-  fs::path folder_;
-  bool decimal_comma_;
-  std::string body_;
-};
-
-void add_differences(Markdown& md, const Comparison& comparison) {
+void add_differences(MarkdownFolder& md, const Comparison& comparison) {
   md.text("## Where they differ");
   for (std::size_t k = 0; k < comparison.tallies.size(); ++k) {
     const HeatMap map = heat_map_of(comparison, comparison.tallies[k]);
@@ -83,7 +31,7 @@ void add_differences(Markdown& md, const Comparison& comparison) {
   md.text("All rows: [CSV](differences.csv). All points: [JSON](comparison.json).");
 }
 
-void add_causes(Markdown& md, const Comparison& comparison) {
+void add_causes(MarkdownFolder& md, const Comparison& comparison) {
   md.text("## Why");
   const std::size_t condition = condition_of_largest_difference(comparison);
   const auto [bars, side_colors] = budget_bars(comparison, condition);
@@ -99,10 +47,9 @@ void add_causes(Markdown& md, const Comparison& comparison) {
 }  // namespace
 
 void write_markdown(const fs::path& folder, const Comparison& answered, const ComparisonAbout& about) {
-  make_folder(folder);
   Comparison comparison = answered;
   const std::vector<std::string> labels = label_sides_in_words(comparison);
-  Markdown md(folder, about.decimal_comma);
+  MarkdownFolder md(folder, about.decimal_comma);
   md.text("# " + plain(about.page.title));
   for (const Clause& clause : summary(comparison, about.loop ? &*about.loop : nullptr))
     md.text(fmt::format("- {}{}", clause.about.empty() ? "" : "**" + plain(clause.about) + ".** ", plain(clause.text)));
@@ -128,8 +75,8 @@ void write_markdown(const fs::path& folder, const Comparison& answered, const Co
     for (const auto& [name, value] : *list) md.text(fmt::format("- {}: {}", plain(name), plain(value)));
   md.write();
   md.csv("differences", differences_csv(answered));
-  write_file_atomically(folder / "comparison.json", json_text(comparison_json(answered, about)));
-  write_file_atomically(folder / "case.yaml", about.resolved_case);
+  md.file("comparison.json", json_text(comparison_json(answered, about)));
+  md.file("case.yaml", about.resolved_case);
 }
 
 }  // namespace soilbin::compare

@@ -16,19 +16,6 @@
 namespace soilbin::compare {
 namespace {
 
-/// The values of a steady drive that are set side by side.
-struct SteadyValue {
-  const char* name;
-  const char* unit;
-  double per_si;
-  Estimate dem::SteadyDrive::*value;
-};
-constexpr std::array<SteadyValue, 5> steady_values = {{{"speed", "cm/s", 100, &dem::SteadyDrive::speed},
-                                                       {"slip", "%", 100, &dem::SteadyDrive::slip},
-                                                       {"sinkage", "mm", 1000, &dem::SteadyDrive::sinkage},
-                                                       {"torque", "N m", 1, &dem::SteadyDrive::torque},
-                                                       {"soil force", "N", 1, &dem::SteadyDrive::forward}}};
-
 using bekker_wong::DriveRecord;
 using Steady = std::optional<dem::SteadyDrive>;
 
@@ -59,9 +46,9 @@ dem::SteadyDrive values_at(const DriveState& end) {
   return steady;
 }
 
-/// Adds the errors of uncertain values, from the drives with one of them moved that have a steady state. Names the
-/// values that are left out where neither side has one.
-std::string add_errors(dem::SteadyDrive& steady, const AnalyticDrive& part) {
+/// Adds the errors of uncertain values, from the drives with one of them moved that have a steady state. Gives the
+/// titles of those that are left out, where neither side has one.
+std::vector<std::string> add_errors(dem::SteadyDrive& steady, const AnalyticDrive& part) {
   const std::vector<MovedDrive>& moved = part.errors.moved;
   std::vector<std::string> left_out;
   Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(moved.size()),
@@ -80,8 +67,7 @@ std::string add_errors(dem::SteadyDrive& steady, const AnalyticDrive& part) {
     }
   for (std::size_t k = 0; k < std::size(steady_values); ++k)
     (steady.*steady_values[k].value).std_error = part.errors.standard_error(changes.col(static_cast<Eigen::Index>(k)));
-  if (left_out.empty()) return "";
-  return "the standard errors leave out " + listed(left_out) + ": the drive has no steady state beside it";
+  return left_out;
 }
 
 template <class Sample>
@@ -89,13 +75,6 @@ DriveSideSample side_sample(const Sample& sample, double soil) {
   DriveSideSample out{static_cast<const DriveState&>(sample), {}, soil};
   out.energy = sample.energy;
   return out;
-}
-
-std::vector<const DriveSide*> grain_sides(const DriveSides& drive) {
-  std::vector<const DriveSide*> grains;
-  for (const DriveSide& side : drive.sides)
-    if (side.kind == SideKind::grains) grains.push_back(&side);
-  return grains;
 }
 
 template <class Value>
@@ -154,40 +133,18 @@ DriveOverPackings as_one(const std::vector<const DriveSide*>& grains) {
   return one;
 }
 
-std::string steady_words(const dem::SteadyDrive& s) {
-  return fmt::format("; steady{} at {} % slip, {} mm sinkage, {} N m torque",
-                     s.steady ? "" : " by way and motor, but still drifting,", number(s.slip, 100),
-                     number(s.sinkage, 1000), number(s.torque));
-}
-
-/// "dem, mean of 3 packings: arrived on 2 and stuck on 1, ..."
-std::string sentence_of(const DriveOverPackings& one) {
-  std::string ends;
-  std::vector<DriveEnd> listed;
-  for (const DriveEnd end : one.ends) {
-    if (std::ranges::find(listed, end) != listed.end()) continue;
-    listed.push_back(end);
-    ends += fmt::format("{}{} on {}", ends.empty() ? "" : ", ", word_of(end), std::ranges::count(one.ends, end));
-  }
-  std::string text = fmt::format("dem, mean of {} bed samples: {}, after {} s and {} m", one.ends.size(), ends,
-                                 number(one.end_time), number(one.travelled));
-  return text + (one.steady ? steady_words(*one.steady) : "; not all bed samples have a steady state") + ".";
-}
-
-std::string sentence_of(const DriveSide& side) {
-  const DriveState& end = side.samples.back();
-  std::string text =
-      fmt::format("{}: {} after {:.4g} s and {:.4g} m", side.label, word_of(side.end), side.end_time, end.travelled);
-  if (!side.steady) return text + fmt::format("; no steady state: {}.", side.not_steady);
-  text += steady_words(*side.steady);
-  return text + (side.not_steady.empty() ? "." : fmt::format(" ({}).", side.not_steady));
-}
-
 }  // namespace
+
+std::vector<const DriveSide*> grain_sides(const DriveSides& drive) {
+  std::vector<const DriveSide*> grains;
+  for (const DriveSide& side : drive.sides)
+    if (side.kind == SideKind::grains) grains.push_back(&side);
+  return grains;
+}
 
 DriveSide analytic_side(const AnalyticDrive& part) {
   const DriveRecord& record = part.record;
-  DriveSide side{SideKind::analytic, "bekker_wong", {}, record.end, record.end_time, {}, record.happenings, {}, {}, {}};
+  DriveSide side{SideKind::analytic, "bekker_wong", {}, record.end, record.end_time, {}, record.happenings};
   for (const bekker_wong::DriveSample& s : record.samples)
     side.samples.push_back(side_sample(s, s.energy.compaction + s.energy.shear + s.energy.added + s.energy.damping));
   const bekker_wong::EnergyLedger& end = record.samples.back().energy;
@@ -198,13 +155,13 @@ DriveSide analytic_side(const AnalyticDrive& part) {
   side.not_steady = unsteady(record, *part.question.drive);
   if (!side.not_steady.empty()) return side;
   side.steady = values_at(record.samples.back());
-  side.not_steady = add_errors(*side.steady, part);
+  side.errors_leave_out = add_errors(*side.steady, part);
   return side;
 }
 
 DriveSide grain_side(const dem::GrainDriveRecord& record, std::optional<std::uint64_t> packing) {
   const std::string label = packing ? fmt::format("dem packing {}", *packing) : "dem";
-  DriveSide side{SideKind::grains, label, packing, record.end, record.end_time, {}, record.happenings, {}, {}, {}};
+  DriveSide side{SideKind::grains, label, packing, record.end, record.end_time, {}, record.happenings};
   for (const dem::GrainDriveSample& s : record.samples) side.samples.push_back(side_sample(s, s.energy.soil));
   const dem::GrainDriveEnergy& end = record.samples.back().energy;
   if (end.known)
@@ -231,56 +188,6 @@ std::optional<dem::SteadyDrive> steady_of_grains(const DriveSides& drive) {
   if (drive.over_packings) return drive.over_packings->steady;
   const std::vector<const DriveSide*> grains = grain_sides(drive);
   return grains.empty() ? std::nullopt : grains.front()->steady;
-}
-
-Table packings_table(const DriveSides& drive) {
-  Table table{
-      "± is one standard error; of the mean from the scatter of bed samples or, where it is larger, from their own",
-      {"on each bed sample"},
-      {true}};
-  if (!drive.over_packings) return table;
-  const DriveOverPackings& mean = *drive.over_packings;
-  const std::vector<const DriveSide*> grains = grain_sides(drive);
-  const auto add = [&](const std::string& name, const auto& of, const std::string& last) {
-    std::vector<TableCell> row{name};
-    for (const DriveSide* side : grains) row.push_back(of(*side));
-    row.push_back(last);
-    table.add(std::move(row));
-  };
-  for (const DriveSide* side : grains) table.header.push_back(side->label);
-  table.header.emplace_back("mean");
-  table.text_columns.resize(table.header.size(), false);
-  add(
-      "end", [](const DriveSide& s) { return std::string(word_of(s.end)); }, "");
-  add(
-      "after [s]", [](const DriveSide& s) { return number(s.end_time); }, number(mean.end_time));
-  add(
-      "travelled [m]", [](const DriveSide& s) { return number(s.samples.back().travelled); }, number(mean.travelled));
-  for (const SteadyValue& value : steady_values) {
-    const auto text_of = [&](const Steady& steady) {
-      return steady ? number((*steady).*value.value, value.per_si) : "-";
-    };
-    add(
-        fmt::format("{} [{}]", value.name, value.unit), [&](const DriveSide& s) { return text_of(s.steady); },
-        text_of(mean.steady));
-  }
-  return table;
-}
-
-std::vector<std::string> in_words(const DriveSides& drive) {
-  std::vector<std::string> sentences;
-  for (const DriveSide& side : drive.sides) sentences.push_back(sentence_of(side));
-  if (drive.over_packings) sentences.push_back(sentence_of(*drive.over_packings));
-  std::string apart;
-  for (const DriveDifference& row : drive.differences)
-    if (row.finding == DifferenceFinding::difference)
-      apart += fmt::format("{}{} by {} {}", apart.empty() ? "" : ", ", row.name,
-                           number({row.difference, row.std_error}, row.per_si), row.unit);
-  if (!apart.empty())
-    sentences.push_back("In the steady state the models differ in " + apart + ".");
-  else if (!drive.differences.empty())
-    sentences.push_back("In the steady state no difference is significant.");
-  return sentences;
 }
 
 std::vector<DriveWorkRow> work_rows(const DriveSides& drive) {

@@ -2,8 +2,8 @@
 // what either side doesn't know.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,8 +11,6 @@
 
 #include "compare/discrepancy/difference.hpp"
 #include "compare/drives/drive.hpp"
-#include "compare/report/page.hpp"
-#include "compare/report/plot.hpp"
 #include "dem/rig/drive_outcome.hpp"
 #include "scenario/case.hpp"
 
@@ -33,10 +31,11 @@ struct DriveSide {
   double end_time = 0.0;
   std::vector<DriveSideSample> samples;
   std::vector<DriveHappening> happenings;
-  std::vector<std::pair<std::string, double>> soil_parts;  ///< what became of the soil's share at the end [J]
+  std::vector<std::pair<std::string, double>> soil_parts{};  ///< what became of the soil's share at the end [J]
   /// Steady values; errors are the soil's doubt on the analytic side, block averages on that of grains.
-  std::optional<dem::SteadyDrive> steady;
-  std::string not_steady;  ///< why there are none
+  std::optional<dem::SteadyDrive> steady{};
+  std::string not_steady{};                     ///< why there are none
+  std::vector<std::string> errors_leave_out{};  ///< values whose errors the steady values leave out
 };
 
 /// Several packings' drives as one: mean_over_packings of each value.
@@ -47,6 +46,19 @@ struct DriveOverPackings {
   std::optional<dem::SteadyDrive>
       steady;  ///< where all packings have theirs; from the first to the last, drift the largest
 };
+
+/// The values of a steady drive that are set side by side.
+struct SteadyValue {
+  const char* name;
+  const char* unit;  ///< to show it in
+  double per_si;     ///< value in that unit
+  Estimate dem::SteadyDrive::*value;
+};
+inline constexpr std::array<SteadyValue, 5> steady_values = {{{"speed", "cm/s", 100, &dem::SteadyDrive::speed},
+                                                              {"slip", "%", 100, &dem::SteadyDrive::slip},
+                                                              {"sinkage", "mm", 1000, &dem::SteadyDrive::sinkage},
+                                                              {"torque", "N m", 1, &dem::SteadyDrive::torque},
+                                                              {"soil force", "N", 1, &dem::SteadyDrive::forward}}};
 
 /// A steady value of both sides [SI].
 struct DriveDifference {
@@ -79,11 +91,11 @@ DriveSides side_by_side(const Case& question, std::vector<DriveSide> sides, std:
 /// What is doubtful in both models' drives (compare/doubts/doubts.hpp).
 std::vector<std::string> doubts(const DriveSides& drive);
 
+/// Sides of grains, in their order.
+std::vector<const DriveSide*> grain_sides(const DriveSides& drive);
+
 /// The steady values of the side of grains: the one there is, or the mean over packings.
 std::optional<dem::SteadyDrive> steady_of_grains(const DriveSides& drive);
-
-/// How each ended, one sentence a side; then what differs at the end that both reach steadily.
-std::vector<std::string> in_words(const DriveSides& drive);
 
 /// Where the motor's work went: a name and J of each side (absent: the side doesn't know it), the rest last.
 struct DriveWorkRow {
@@ -91,26 +103,5 @@ struct DriveWorkRow {
   std::vector<std::optional<double>> joules;
 };
 std::vector<DriveWorkRow> work_rows(const DriveSides& drive);
-
-/// Steady values of both sides and how they differ; a row each.
-Table differences_table(const DriveSides& drive);
-/// What the summary tells, a column each packing and their mean; no rows where there is one packing.
-Table packings_table(const DriveSides& drive);
-/// work_rows, the whole of it last [J].
-Table work_table(const DriveSides& drive, WorkTable where);
-/// So many of all sides' samples, but three of each at least.
-Table samples_table(const DriveSides& drive, std::size_t rows);
-
-/// Travelled way, speed, slip, sinkage, torque and work against time, a colour for each side; steady means of grains
-/// with their errors as bands; of several packings the mean's.
-Sheet drive_sheet(const DriveSides& drive);
-
-/// soilbin-drive-sides/1, in SI.
-nlohmann::ordered_json to_json(const DriveSides& drive);
-
-/// A line a sample, the model's name first; SI, angles in degrees.
-std::string drive_csv(const DriveSides& drive);
-
-std::string drive_page(const DriveSides& drive, const PageAbout& about);
 
 }  // namespace soilbin::compare

@@ -143,11 +143,12 @@ std::string as_text(const Table& table) {
 std::string html_of(const Table& table) {
   std::string out = fmt::format("<div class=\"scroll\"><table{}>", table.marked ? " class=\"marked\"" : "");
   if (!table.caption.empty()) out += "<caption>" + escaped(table.caption) + "</caption>";
-  out += "<thead><tr>";
-  for (std::size_t c = 0; c < table.header.size(); ++c)
+  const bool named = std::ranges::any_of(table.header, [](const std::string& name) { return !name.empty(); });
+  out += named ? "<thead><tr>" : "<tbody>\n";
+  for (std::size_t c = 0; c < table.header.size() && named; ++c)
     out += table.marked ? fmt::format("<th{}>{}</th>", table.is_text(c) ? " class=\"t\"" : "", escaped(table.header[c]))
                         : plain_cell("th", table.header[c], table.is_text(c));
-  out += "</tr></thead><tbody>\n";
+  if (named) out += "</tr></thead><tbody>\n";
   for (const std::vector<TableCell>& row : table.rows) {
     out += "<tr>";
     for (std::size_t c = 0; c < row.size(); ++c)

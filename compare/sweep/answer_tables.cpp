@@ -42,16 +42,6 @@ std::string efficiency_in_percent(const TractionResult& result) {
   return has_efficiency(result) ? number(100 * result.tractive_efficiency) : "-";
 }
 
-std::string channel_errors_text(const Prediction& prediction) {
-  Table table{"", {"channel", "runs", "rms error", "bias (predicted - measured)", "measured range", "rms/range [%]"}};
-  for (const ChannelError& error : prediction.errors) {
-    const auto in_unit = [&](double si) { return compare::in_unit(error.channel, si); };
-    table.add({std::string(channel_views[error.channel].title), std::to_string(error.runs), in_unit(error.rmse),
-               in_unit(error.bias), in_unit(error.range), number(100 * error.share_of_range)});
-  }
-  return as_text(table);
-}
-
 /// Why a pull of the analytic model at 0 % slip on the level is not 0, which readers expect; "" where there is none.
 std::string pull_without_slip(const ModelAnswers& model) {
   const bool there =
@@ -133,44 +123,6 @@ std::string study_text(const std::vector<ModelAnswers>& study) {
     text += (text.empty() ? "" : "\n") + model.choice.label + "\n" + as_text(table) + notes;
   }
   return study.empty() ? text : text + pull_without_slip(study.front());
-}
-
-std::string prediction_text(const Prediction& prediction) {
-  std::vector<OperatingCondition> conditions;
-  for (const PredictedRun& run : prediction.runs) conditions.push_back(run.measured.at);
-  const Curves curves = curves_against_slip(conditions, Spread::measured);
-  const bool labelled =
-      std::ranges::any_of(prediction.runs, [](const PredictedRun& run) { return run.measured.setpoint.has_value(); });
-  std::vector<std::string> header = {"run"};
-  if (labelled) header.push_back("setpoint");
-  if (!curves.varying.empty()) header.push_back("nominal " + curves.varying);
-  header.insert(header.end(), {"load [N]", "slip [%]"});
-  for (const ChannelError& error : prediction.errors) {
-    const ChannelView& channel = channel_views[error.channel];
-    header.push_back(heading(std::string(channel.title), std::string(channel.unit)));
-    header.insert(header.end(), {"predicted", "less measured"});
-  }
-  Table table{"", header};
-  std::string notes;
-  for (std::size_t i = 0; i < prediction.runs.size(); ++i) {
-    const PredictedRun& run = prediction.runs[i];
-    std::vector<TableCell> row = {std::to_string(run.run)};
-    if (labelled) row.push_back(run.measured.setpoint.value_or("-"));
-    if (!curves.varying.empty()) row.push_back(curves.labels[curves.curve_of[i]]);
-    row.push_back(number(run.measured.at.load));
-    row.push_back(fmt::format("{:.4g}", 100 * run.measured.at.slip));
-    for (const ChannelError& error : prediction.errors) {
-      const ChannelView& channel = channel_views[error.channel];
-      const auto measured = run.measured.*channel.measured;
-      const auto rest = residual(run, channel);
-      row.push_back(measured ? number(*measured * channel.per_si) : "-");
-      row.push_back(run.predicted.result ? number((*run.predicted.result).*channel.predicted, channel.per_si) : "-");
-      row.push_back(rest ? number(*rest * channel.per_si) : "-");
-    }
-    if (!run.predicted.result) notes += fmt::format("run {}: no solution: {}\n", run.run, run.predicted.error);
-    table.add(std::move(row));
-  }
-  return as_text(table) + notes + "\n" + channel_errors_text(prediction);
 }
 
 }  // namespace soilbin::compare

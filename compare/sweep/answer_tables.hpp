@@ -1,4 +1,4 @@
-// Answers as text on a terminal: one answer in full, a study and a prediction a line each.
+// Answers as text on a terminal: one answer in full, a study a line each.
 //
 //   for (const ModelAnswers& model : study) fmt::print("{}\n", answer_text(model, model.answers.front()));
 #pragma once
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "compare/sweep/answers.hpp"
-#include "compare/sweep/prediction.hpp"
 
 namespace soilbin::compare {
 
@@ -22,7 +21,5 @@ std::vector<PrintedValue> printed_values(const TractionResult& result);
 std::string answer_text(const ModelAnswers& model, const Answer& answer);
 /// One line an answer, the conditions that vary in the first columns.
 std::string study_text(const std::vector<ModelAnswers>& study);
-/// The runs of a campaign under their own labels, measured and predicted (± one standard error), then the error table.
-std::string prediction_text(const Prediction& prediction);
 
 }  // namespace soilbin::compare

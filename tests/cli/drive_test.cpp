@@ -237,7 +237,7 @@ TEST(SlowDriveInGrains, BothModelsStandSideBySide) {
       soilbin("drive '" + file + "' --model both" + small_bin + "--report '" + page + "' --csv '" + csv + "'");
   ::unsetenv("SOILBIN_BEDS");
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_THAT(said.out, AllOf(HasSubstr("dem: arrived after"), HasSubstr("is given to the soil"),
+  EXPECT_THAT(said.out, AllOf(HasSubstr("Grains: arrived after"), HasSubstr("is given to the soil"),
                               HasSubstr("of that: grains slide"), HasSubstr("soil force [N]")));
   EXPECT_THAT(text_of(page), AllOf(HasSubstr("Against time"), HasSubstr("Travelled [m]"), HasSubstr("Steady state")));
   EXPECT_THAT(text_of(csv), AllOf(testing::StartsWith("model,time_s,travelled_m"), HasSubstr("\ndem,")));
@@ -277,8 +277,8 @@ TEST(SlowDriveInGrains, SeveralPackingsAreToldEachAndAsOne) {
   EXPECT_EQ(drive["differences"][1]["grains"], mean["steady"]["slip"]);
   EXPECT_EQ(drive["notes"].size(), 2U);
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_THAT(said.out, AllOf(HasSubstr("dem, mean of 2 bed samples: arrived on 2, after"), HasSubstr("dem packing 2"),
-                              HasSubstr("on each bed sample")));
+  EXPECT_THAT(said.out, AllOf(HasSubstr("Grains, mean of 2 bed samples: arrived on 2, after"),
+                              HasSubstr("grains, bed sample 2"), HasSubstr("on each bed sample")));
   EXPECT_THAT(text_of(page), HasSubstr("On each bed sample"));
 }
 

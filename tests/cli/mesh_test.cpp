@@ -56,10 +56,10 @@ TEST(Mesh, TellsWhatIsThereAndWhatWasMended) {
   const Outcome told = soilbin("mesh '" + file + "'");
   EXPECT_EQ(told.status, 0) << told.err;
   EXPECT_THAT(told.out,
-              AllOf(HasSubstr("wheel.stl: 192 triangles, 1 closed body\n"), HasSubstr("unit      mm; it could"),
-                    HasSubstr("axle      z\n"), HasSubstr("radius    62 mm"), HasSubstr("width     40 mm"),
-                    HasSubstr("volume    481.7 cm^3"), HasSubstr("- 1 part inside another body left out\n"),
-                    HasSubstr("- turned from axle z to axle y: forward is the drawing's x, up its -y\n")));
+              AllOf(HasSubstr("wheel.stl: 192 triangles, 1 closed body\n"), HasSubstr("unit    mm; it could"),
+                    HasSubstr("axle    z\n"), HasSubstr("radius  62 mm"), HasSubstr("width   40 mm"),
+                    HasSubstr("volume  481.7 cm^3"), HasSubstr("changed: 1 part inside another body left out\n"),
+                    HasSubstr("changed: turned from axle z to axle y: forward is the drawing's x, up its -y\n")));
   const nlohmann::json json = soilbin("mesh '" + file + "' --unit mm --json").json();
   EXPECT_EQ(json["format"], "soilbin-mesh/1");
   EXPECT_NEAR(json["radius"].get<double>(), 0.062, 1e-12);

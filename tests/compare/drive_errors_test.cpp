@@ -7,7 +7,7 @@
 
 #include "bekker_wong/drive_fixture.hpp"
 #include "bekker_wong/limits.hpp"
-#include "compare/drives/drive.hpp"
+#include "compare/telling/drive_report.hpp"
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
@@ -59,15 +59,15 @@ TEST(DriveErrors, SayWhichValueEndsTheDriveInAnotherWay) {
   EXPECT_EQ(part.errors.moved.front().higher.record.value().end, DriveEnd::time_is_up);
   EXPECT_FALSE(part.errors.end_time.has_value());
   EXPECT_GT(*part.errors.travelled, 0.1 * part.record.samples.back().travelled);
-  EXPECT_THAT(in_words(part), testing::Contains(testing::HasSubstr("With the friction angle of dry-sand a standard "
-                                                                   "deviation lower")));
+  EXPECT_THAT(text_of(report_on(part)),
+              testing::HasSubstr("With the friction angle of dry-sand a standard deviation lower"));
 }
 
 TEST(DriveErrors, OfExactValuesThereAreNone) {
   const AnalyticDrive part = run_drive(question(0, 3, 0), 10);
   EXPECT_TRUE(part.errors.moved.empty());
   EXPECT_FALSE(part.errors.travelled.has_value());
-  EXPECT_THAT(in_words(part), testing::Not(testing::Contains(testing::HasSubstr("±"))));
+  EXPECT_THAT(text_of(report_on(part)), testing::Not(testing::HasSubstr("±")));
 }
 
 TEST(DriveErrors, AreTheSameForAnyNumberOfThreads) {
@@ -98,8 +98,9 @@ TEST(DriveErrors, OfAFitAddUpAsItsCorrelationsHaveThem) {
   EXPECT_NEAR(*with(1.0).errors.travelled, std::abs(a + b), 1e-9);
   EXPECT_NEAR(*with(-1.0).errors.travelled, std::abs(a - b), 1e-9);
   EXPECT_NEAR(*with(0.5).errors.travelled, std::sqrt(a * a + b * b + a * b), 1e-9);
-  EXPECT_THAT(in_words(with(0.5)), testing::Contains(testing::HasSubstr("err together")));
-  EXPECT_THAT(in_words(with(0.5)), testing::Not(testing::Contains(testing::HasSubstr("Most of the ±"))));
+  const AnalyticDrive half = with(0.5);
+  EXPECT_THAT(text_of(report_on(half)),
+              testing::AllOf(testing::HasSubstr("err together"), testing::Not(testing::HasSubstr("Most of the ±"))));
 }
 
 TEST(DriveErrors, AnEffectsValueErrsWhereItsFitSaysSo) {

@@ -1,5 +1,4 @@
 // Measured plates: what a file may look like, and that the fit gives back the soil that made the readings.
-#include "compare/bevameter/measured_plates.hpp"
 
 #include <fmt/core.h>
 #include <gmock/gmock.h>
@@ -12,6 +11,8 @@
 
 #include "bekker_wong/gsl.hpp"
 #include "compare/doubts/plate_doubts.hpp"
+#include "compare/report/json_fields.hpp"
+#include "compare/telling/plates_report.hpp"
 #include "tests/scenario/refusal.hpp"
 
 namespace soilbin::compare {
@@ -307,9 +308,10 @@ TEST(DirtyPlates, ASpikeOfTheSinkageIsSetAsideWithItsLine) {
   EXPECT_EQ(lines_aside(fit), (std::vector<int>{6}));
   ASSERT_TRUE(fit.kept);
   EXPECT_NEAR((*fit.kept)[0], 0.25, 0.01) << "what the answer was with the spike";
-  EXPECT_THAT(in_words(fit, 4, "x"), HasSubstr("Set aside as spikes, off the readings around them: 1 reading of 1 test "
-                                               "(line 6).\nWith everything kept: n = 0.2501"));
-  const Json document = to_json(fit, 4);
+  const Report report = report_on(fit, {}, "x");
+  EXPECT_THAT(text_of(report), HasSubstr("Set aside as spikes, off the readings around them: 1 reading of 1 test "
+                                         "(line 6).\nWith everything kept: n = 0.2501"));
+  const Json document = report.data();
   EXPECT_EQ(document["set_aside"][0]["why"], "sinkage_spike");
   EXPECT_EQ(document["set_aside"][0]["lines"][0], 6);
 }
@@ -355,7 +357,8 @@ TEST(DirtyPlates, UnloadingAndReloadingAreLeftOutAndGiveKu) {
     ASSERT_TRUE(one.readings.unloading_stiffness);
     EXPECT_NEAR(*one.readings.unloading_stiffness, 1000 * one.readings.pressure, 5 * one.readings.pressure);
   }
-  EXPECT_THAT(in_words(fit, 4, "x"), HasSubstr("Set aside as unloading, reloading or holding: 20 readings of 4 tests"));
+  EXPECT_THAT(text_of(report_on(fit, {}, "x")),
+              HasSubstr("Set aside as unloading, reloading or holding: 20 readings of 4 tests"));
 }
 
 // The pressure rises at 16 mm from 16 to 80 kPa: this gave n = 2.66 with an error that was no number.
@@ -366,7 +369,7 @@ TEST(DirtyPlates, ADepthSensorThatSticksIsLeftOutAndDoubted) {
   expect_the_clean_soil(fit);
   EXPECT_EQ(fit.readings_aside(), 10u);
   EXPECT_THAT(doubts(fit), testing::Contains(HasSubstr("does the depth sensor stick")));
-  EXPECT_THAT(in_words(fit, 2, "x"), testing::Not(HasSubstr("nan")));
+  EXPECT_THAT(text_of(report_on(fit, {}, "x")), testing::Not(HasSubstr("nan")));
 }
 
 // A sensor that never moves gives no exponent, and no line for a file.
@@ -425,9 +428,10 @@ TEST(DirtyPlates, OneSizeOfPlateGivesNAndK) {
   EXPECT_NEAR(fit.k_phi.estimate.std_error, 0.05 * std::sqrt(8.0 / 12) * (made_k_c / 0.05 + made_k_phi),
               0.02 * made_k_phi);
   EXPECT_THAT(doubts(fit), testing::Contains(HasSubstr("plates of one size do not part k_c from k_phi")));
-  EXPECT_THAT(in_words(fit, 13, "x"), AllOf(HasSubstr("k stands for k_c/b + k_phi at b = 50 mm"),
-                                            HasSubstr("k_c: {value: 0 kN/m^(n+1), sd: 0")));
-  EXPECT_TRUE(to_json(fit, 13)["k_c"].is_null());
+  const Report report = report_on(fit, {}, "x");
+  EXPECT_THAT(text_of(report), AllOf(HasSubstr("k stands for k_c/b + k_phi at b = 50 mm"),
+                                     HasSubstr("k_c: {value: 0 kN/m^(n+1), sd: 0")));
+  EXPECT_TRUE(report.data()["k_c"].is_null());
   EXPECT_NO_THROW(
       read_plates(make_source_text("test,sinkage_m,pressure_kPa\na,0.01,9\na,0.02,18\n", "plates.csv"), {}, 0.1));
 }

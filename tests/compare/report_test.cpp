@@ -1,3 +1,5 @@
+#include "compare/report/report.hpp"
+
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -7,8 +9,8 @@
 #include <sstream>
 
 #include "compare/report/heat_map.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/report/page.hpp"
 #include "compare/report/plot.hpp"
 #include "compare/report/plot_panel.hpp"
 #include "compare/sweep/model_names.hpp"
@@ -16,6 +18,7 @@
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
+#include "scenario/file_bytes.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -286,6 +289,59 @@ TEST(ResultJson, CsvRowsHaveAsManyCellsAsTheHeader) {
   for (std::size_t at = 0; at < csv.size(); at = csv.find('\n', at) + 1)
     cells.push_back(commas(csv.substr(at, csv.find('\n', at) - at)));
   EXPECT_THAT(cells, ElementsAre(21U, 21U, 21U));
+}
+
+Report small_report() {
+  Report report{"Pull", "of a wheel", "pull: a wheel on sand"};
+  report.add(Sentences(std::vector<BackedSentence>{{"", "It pulls."}, {"Deep", "it sinks."}}));
+  Table table{"caption", {"slip [%]", "pull [N]"}};
+  table.add({"20", "15.2"});
+  report.add("Numbers", table);
+  report.add("Seen", Figure{{"sheet", {{"Pull [N]", {"slip [%]"}, {}, {line("pull", {1, 2})}}}}, "What to see."});
+  report.add(NamedValues{{{"tire", "rover wheel"}}}, Told::on_terminals);
+  report.add("Steps", Code{"k_c: 1\n"}, Told::on_pages);
+  report.notes = {"made of 3 runs"};
+  report.data = [] { return Json{{"format", "x/1"}}; };
+  report.csv = [] { return std::string("slip,pull\n0.2,15.2\n"); };
+  return report;
+}
+
+TEST(Report, ATerminalGetsSentencesAndTablesWithBlankLinesAroundThem) {
+  EXPECT_EQ(text_of(small_report()),
+            "pull: a wheel on sand\n"
+            "\n"
+            "It pulls.\nDeep: it sinks.\n"
+            "\n"
+            "slip [%]  pull [N]\n"
+            "      20      15.2\n"
+            "\n"
+            "  tire  rover wheel\n"
+            "\n"
+            "made of 3 runs\n");
+}
+
+TEST(Report, APageHasItsPartsInOrderAndTheWarningsBehindTheFirstSentences) {
+  const std::string html = page_of(small_report(), {"", "soilbin pull", {{"soilbin", "1"}}, {"coarse grains"}});
+  std::size_t at = 0;
+  for (const char* part : {"<title>Pull</title>", "It pulls.", "coarse grains", "Numbers", "caption", "Seen", "<svg",
+                           "What to see.", "Steps", "k_c: 1", "soilbin pull", "made of 3 runs", "soilbin 1"}) {
+    const std::size_t found = html.find(part, at);
+    ASSERT_NE(found, std::string::npos) << part;
+    at = found;
+  }
+  EXPECT_THAT(html, Not(HasSubstr("rover wheel")));
+}
+
+TEST(Report, MarkdownHasFiguresAndDataBesideIt) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("soilbin-report-{}", getpid());
+  write_markdown(folder, small_report(), {"", "soilbin pull", {}, {"coarse grains"}}, true);
+  const auto text = [&](const char* name) { return read_bytes(folder / name, 1U << 20U); };
+  EXPECT_THAT(text("report.md"),
+              AllOf(HasSubstr("# Pull\n"), HasSubstr("- **Deep.** it sinks."), HasSubstr("| 20 | 15.2 |")));
+  EXPECT_THAT(text("figure-1.svg"), HasSubstr("<svg"));
+  EXPECT_THAT(text("data.csv"), EndsWith("slip;pull\n0,2;15,2\n"));
+  EXPECT_EQ(Json::parse(text("data.json"))["warnings"][0], "coarse grains");
+  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
-#include "compare/experiments/drawn_wheel_report.hpp"
+#include "compare/telling/wheel_mesh_report.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 namespace soilbin::compare {
 namespace {
@@ -74,25 +75,17 @@ Plot view_plot(const dem::DrawnWheel& wheel, const std::string& title, const Vie
   return plot;
 }
 
-}  // namespace
-
-std::string in_words(const dem::DrawnWheel& wheel, const std::string& file) {
+NamedValues facts_of(const dem::DrawnWheel& wheel) {
   const auto mm = [](double metres) { return fmt::format("{:.4g}", 1000 * metres + 0.0); };
-  std::string text = fmt::format("{}: {}, {}\n", file, count_of(wheel.mesh.size(), "triangle", "triangles"),
-                                 count_of(wheel.mends.bodies, "closed body", "closed bodies"));
-  std::string others;
-  for (const std::string& other : wheel.other_units) others += (others.empty() ? "" : ", ") + other;
-  if (!others.empty()) others = fmt::format("; it could also be in {}: --unit", others);
-  text += fmt::format("unit      {}{}\n", wheel.unit.name, others);
-  text += fmt::format("axle      {}\n", wheel.axle);
-  text += fmt::format("radius    {} mm, to the tips of lugs\n", mm(wheel.radius));
-  text += fmt::format("width     {} mm, from {} to {} mm along the axle\n", mm(wheel.width()), mm(wheel.left),
-                      mm(wheel.right));
-  text += fmt::format("volume    {:.4g} cm^3 within the outer surface\n", 1e6 * wheel.volume);
-  if (wheel.changes.empty()) return text + "Nothing had to be changed.\n";
-  text += "changed:\n";
-  for (const std::string& change : wheel.changes) text += "- " + change + "\n";
-  return text;
+  const std::string others = wheel.other_units.empty()
+                                 ? ""
+                                 : fmt::format("; it could also be in {}: --unit", fmt::join(wheel.other_units, ", "));
+  return {{{"unit", wheel.unit.name + others},
+           {"axle", std::string(1, wheel.axle)},
+           {"radius", mm(wheel.radius) + " mm, to the tips of lugs"},
+           {"width",
+            fmt::format("{} mm, from {} to {} mm along the axle", mm(wheel.width()), mm(wheel.left), mm(wheel.right))},
+           {"volume", fmt::format("{:.4g} cm^3 within the outer surface", 1e6 * wheel.volume)}}};
 }
 
 nlohmann::ordered_json to_json(const dem::DrawnWheel& wheel, const std::string& file) {
@@ -135,6 +128,23 @@ Sheet wheel_sheet(const dem::DrawnWheel& wheel, const std::string& file) {
   sheet.plots.push_back(view_plot(wheel, "From the front", {&Vec3::y, &Vec3::z, {1, 0, 0}}, "y, along the axle [mm]",
                                   std::max(-wheel.left, wheel.right)));
   return sheet;
+}
+
+}  // namespace
+
+Report report_on(const dem::DrawnWheel& wheel, const std::string& file) {
+  Report report{file, "A drawing of a wheel, as grains would meet it.",
+                fmt::format("{}: {}, {}", file, count_of(wheel.mesh.size(), "triangle", "triangles"),
+                            count_of(wheel.mends.bodies, "closed body", "closed bodies"))};
+  report.add(facts_of(wheel));
+  std::vector<BackedSentence> changes;
+  for (const std::string& change : wheel.changes) changes.push_back({"changed", change});
+  if (changes.empty()) changes.push_back({"", "Nothing had to be changed."});
+  report.add(Sentences(changes));
+  report.add("Seen", Figure{wheel_sheet(wheel, file), ""});
+  report.data = [&wheel, file] { return to_json(wheel, file); };
+  report.sheet = [&wheel, file] { return wheel_sheet(wheel, file); };
+  return report;
 }
 
 }  // namespace soilbin::compare

@@ -1,4 +1,4 @@
-#include "compare/experiments/element_test_reports.hpp"
+#include "compare/telling/element_test_report.hpp"
 
 #include <fmt/core.h>
 
@@ -34,7 +34,7 @@ std::string degrees(const Estimate& angle) { return number(angle, 1 / degree); }
 
 std::string line_text(const char* name, const dem::StrengthLine& line) {
   if (line.points == 0) return "";
-  return fmt::format("{}: phi {} deg, c {} kPa; without cohesion phi {} deg\n", name, degrees(line.friction_angle),
+  return fmt::format("{}: phi {} deg, c {} kPa; without cohesion phi {} deg", name, degrees(line.friction_angle),
                      number(line.cohesion, 1e-3), degrees(line.friction_angle_without_cohesion));
 }
 
@@ -59,6 +59,22 @@ void add_line(Plot& plot, std::string label, std::vector<double> x, std::vector<
   plot.series.push_back(std::move(series));
 }
 
+/// Of a test; `table` is empty where it has one run, which the sentences tell.
+Report report_of(const char* test, const std::string& soil, Table table, std::vector<std::string> sentences,
+                 const Json& values, Sheet sheet) {
+  Report report{sheet.title + ": " + soil, "A simulated laboratory test of the grains.",
+                fmt::format("{}: {}", test, soil)};
+  std::erase(sentences, "");
+  if (!sentences.empty()) report.add(Sentences(sentences));
+  report.add("Curves", Figure{sheet, ""});
+  if (!table.rows.empty()) report.add("Runs", std::move(table));
+  Json document = {{"format", "soilbin-element-test/1"}, {"test", test}, {"soil", soil}};
+  document.update(values);
+  report.data = [document = std::move(document)] { return document; };
+  report.sheet = [sheet = std::move(sheet)] { return sheet; };
+  return report;
+}
+
 Plot panel(const char* title, const char* x) {
   Plot plot;
   plot.title = title, plot.x.title = x;
@@ -67,17 +83,16 @@ Plot panel(const char* title, const char* x) {
 
 }  // namespace
 
-TestReport report_on(const dem::DirectShearResult& result) {
+Report report_on(const dem::DirectShearResult& result, const std::string& soil) {
   using Sample = dem::ShearSample;
-  TestReport out;
-  out.table.header = {"stress [kPa]", "packing", "void ratio", "peak [deg]", "at [mm]", "residual [deg]", "imbalance"};
+  Table table{"", {"stress [kPa]", "packing", "void ratio", "peak [deg]", "at [mm]", "residual [deg]", "imbalance"}};
   Json runs = Json::array();
   Plot shear = panel("Shear stress over normal stress [-]", "displacement [mm]");
   Plot lift = panel("Rise of the lid [mm]", "displacement [mm]");
   for (const dem::DirectShearRun& run : result.runs) {
-    out.table.rows.push_back({number(run.stress / 1e3), std::to_string(run.packing), number(run.void_ratio),
-                              degrees(angle_of_tangent(run.peak)), number(run.peak_at * 1e3),
-                              degrees(angle_of_tangent(run.residual)), fmt::format("{:.1e}", run.imbalance)});
+    table.add({number(run.stress / 1e3), std::to_string(run.packing), number(run.void_ratio),
+               degrees(angle_of_tangent(run.peak)), number(run.peak_at * 1e3), degrees(angle_of_tangent(run.residual)),
+               fmt::format("{:.1e}", run.imbalance)});
     const auto way = column(run.curve, &Sample::displacement);
     Json one{{"stress", run.stress},
              {"packing", run.packing},
@@ -100,28 +115,27 @@ TestReport report_on(const dem::DirectShearResult& result) {
     add_line(shear, label, mm, column(run.curve, [](const Sample& s) { return s.shear_stress / s.normal_stress; }));
     add_line(lift, label, mm, column(run.curve, times(&Sample::dilation, 1e3)));
   }
-  out.text = line_text("peak", result.peak) + line_text("residual", result.residual);
-  out.json = {{"mean_diameter", result.mean_diameter},
-              {"peak", json_of(result.peak)},
-              {"residual", json_of(result.residual)},
-              {"runs", std::move(runs)}};
-  out.sheet = {"Direct shear", {std::move(shear), std::move(lift)}};
-  return out;
+  return report_of("direct-shear", soil, std::move(table),
+                   {line_text("peak", result.peak), line_text("residual", result.residual)},
+                   {{"mean_diameter", result.mean_diameter},
+                    {"peak", json_of(result.peak)},
+                    {"residual", json_of(result.residual)},
+                    {"runs", std::move(runs)}},
+                   {"Direct shear", {std::move(shear), std::move(lift)}});
 }
 
-TestReport report_on(const dem::TriaxialResult& result) {
+Report report_on(const dem::TriaxialResult& result, const std::string& soil) {
   using Sample = dem::TriaxialSample;
-  TestReport out;
-  out.table.header = {"stress [kPa]",  "packing",        "void ratio",     "peak [deg]",
-                      "at strain [%]", "dilation [deg]", "residual [deg]", "held to [%]"};
+  Table table{"",
+              {"stress [kPa]", "packing", "void ratio", "peak [deg]", "at strain [%]", "dilation [deg]",
+               "residual [deg]", "held to [%]"}};
   Json runs = Json::array();
   Plot stress = panel("(s1 - s3)/(s1 + s3) [-]", "axial strain [%]");
   Plot volume = panel("Volumetric strain, contraction positive [%]", "axial strain [%]");
   for (const dem::TriaxialRun& run : result.runs) {
-    out.table.rows.push_back({number(run.stress / 1e3), std::to_string(run.packing), number(run.void_ratio),
-                              degrees(angle_of_sine(run.peak)), number(run.peak_at * 100),
-                              number(run.dilation_angle / degree), degrees(angle_of_sine(run.residual)),
-                              number(run.confining_error * 100)});
+    table.add({number(run.stress / 1e3), std::to_string(run.packing), number(run.void_ratio),
+               degrees(angle_of_sine(run.peak)), number(run.peak_at * 100), number(run.dilation_angle / degree),
+               degrees(angle_of_sine(run.residual)), number(run.confining_error * 100)});
     runs.push_back({{"stress", run.stress},
                     {"packing", run.packing},
                     {"void_ratio", run.void_ratio},
@@ -148,68 +162,67 @@ TestReport report_on(const dem::TriaxialResult& result) {
     add_line(stress, label, percent, sine);
     add_line(volume, label, percent, column(run.curve, times(&Sample::volumetric, 100)));
   }
-  out.text = line_text("peak", result.peak) + line_text("residual", result.residual);
-  out.json = {{"mean_diameter", result.mean_diameter},
-              {"peak", json_of(result.peak)},
-              {"residual", json_of(result.residual)},
-              {"runs", std::move(runs)}};
-  out.sheet = {"Triaxial compression", {std::move(stress), std::move(volume)}};
-  return out;
+  return report_of("triaxial", soil, std::move(table),
+                   {line_text("peak", result.peak), line_text("residual", result.residual)},
+                   {{"mean_diameter", result.mean_diameter},
+                    {"peak", json_of(result.peak)},
+                    {"residual", json_of(result.residual)},
+                    {"runs", std::move(runs)}},
+                   {"Triaxial compression", {std::move(stress), std::move(volume)}});
 }
 
-TestReport report_on(const dem::TiltingBoardResult& result) {
+Report report_on(const dem::TiltingBoardResult& result, const std::string& soil) {
   using Sample = dem::TiltSample;
-  TestReport out;
-  out.text = result.slid ? fmt::format("{} grains begin to slide at {} deg; slid by a grain at {} deg\n", result.grains,
-                                       number(result.onset / degree), number(result.gone / degree))
-                         : fmt::format("{} grains held up to {} deg\n", result.grains, number(result.onset / degree));
   const auto slide = column(result.curve, &Sample::slide);
-  out.json = {{"mean_diameter", result.mean_diameter},
-              {"grains", result.grains},
-              {"slid", result.slid},
-              {"onset", result.onset},
-              {"gone", result.gone},
-              {"angle", column(result.curve, &Sample::angle)},
-              {"slide", slide}};
   Plot plot = panel("Mean slide [mm]", "tilt [deg]");
   add_line(plot, "", column(result.curve, [](const Sample& s) { return s.angle / degree; }),
            column(result.curve, times(&Sample::slide, 1e3)));
-  out.sheet = {"Tilting board", {std::move(plot)}};
-  return out;
+  return report_of(
+      "tilting-board", soil, {},
+      {result.slid ? fmt::format("{} grains begin to slide at {} deg; slid by a grain at {} deg", result.grains,
+                                 number(result.onset / degree), number(result.gone / degree))
+                   : fmt::format("{} grains held up to {} deg", result.grains, number(result.onset / degree))},
+      {{"mean_diameter", result.mean_diameter},
+       {"grains", result.grains},
+       {"slid", result.slid},
+       {"onset", result.onset},
+       {"gone", result.gone},
+       {"angle", column(result.curve, &Sample::angle)},
+       {"slide", slide}},
+      {"Tilting board", {std::move(plot)}});
 }
 
-TestReport report_on(const dem::AngleOfReposeResult& result) {
+Report report_on(const dem::AngleOfReposeResult& result, const std::string& soil) {
   using Ring = dem::HeapProfile;
-  TestReport out;
-  out.text = fmt::format("angle of repose {} deg: {} grains, heap {} mm high, {} mm in radius, at rest after {} s\n",
-                         degrees(result.angle), result.grains, number(result.height * 1e3), number(result.base * 1e3),
-                         number(result.settling_time));
-  out.json = {{"mean_diameter", result.mean_diameter},
-              {"angle", estimate_json(result.angle)},
-              {"by_sector", result.by_sector},
-              {"grains", result.grains},
-              {"height", result.height},
-              {"base", result.base},
-              {"lift_speed", result.lift_speed},
-              {"radius", column(result.profile, &Ring::radius)},
-              {"profile", column(result.profile, &Ring::height)}};
   Plot plot = panel("Height [mm]", "distance from the axis [mm]");
   add_line(plot, "", column(result.profile, times(&Ring::radius, 1e3)),
            column(result.profile, times(&Ring::height, 1e3)));
-  out.sheet = {"Angle of repose", {std::move(plot)}};
-  return out;
+  return report_of(
+      "repose", soil, {},
+      {fmt::format("angle of repose {} deg: {} grains, heap {} mm high, {} mm in radius, at rest after {} s",
+                   degrees(result.angle), result.grains, number(result.height * 1e3), number(result.base * 1e3),
+                   number(result.settling_time))},
+      {{"mean_diameter", result.mean_diameter},
+       {"angle", estimate_json(result.angle)},
+       {"by_sector", result.by_sector},
+       {"grains", result.grains},
+       {"height", result.height},
+       {"base", result.base},
+       {"lift_speed", result.lift_speed},
+       {"radius", column(result.profile, &Ring::radius)},
+       {"profile", column(result.profile, &Ring::height)}},
+      {"Angle of repose", {std::move(plot)}});
 }
 
-TestReport report_on(const std::vector<dem::PlateRun>& runs) {
+Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil) {
   using Sample = dem::PlateSample;
-  TestReport out;
-  out.table.header = {"plate [mm]", "grains", "void ratio", "sinkage [mm]", "pressure there [kPa]"};
+  Table table{"", {"plate [mm]", "grains", "void ratio", "sinkage [mm]", "pressure there [kPa]"}};
   Json all = Json::array();
   Plot plot = panel("Pressure [kPa]", "sinkage [mm]");
   for (const dem::PlateRun& run : runs) {
     const Sample& last = run.curve.back();
-    out.table.rows.push_back({number(run.diameter * 1e3), std::to_string(run.grains), number(run.void_ratio),
-                              number(last.sinkage * 1e3), number(last.pressure / 1e3)});
+    table.add({number(run.diameter * 1e3), std::to_string(run.grains), number(run.void_ratio),
+               number(last.sinkage * 1e3), number(last.pressure / 1e3)});
     all.push_back({{"diameter", run.diameter},
                    {"packing", run.packing},
                    {"void_ratio", run.void_ratio},
@@ -220,15 +233,13 @@ TestReport report_on(const std::vector<dem::PlateRun>& runs) {
     add_line(plot, fmt::format("{} mm", number(run.diameter * 1e3)), column(run.curve, times(&Sample::sinkage, 1e3)),
              column(run.curve, [](const Sample& s) { return s.pressure / 1e3; }));
   }
-  out.json = {{"runs", std::move(all)}};
-  out.sheet = {"Plate sinkage", {std::move(plot)}};
-  return out;
+  return report_of("plate", soil, std::move(table), {}, {{"runs", std::move(all)}},
+                   {"Plate sinkage", {std::move(plot)}});
 }
 
-TestReport report_on(const std::vector<dem::AnnulusRun>& runs) {
+Report report_on(const std::vector<dem::AnnulusRun>& runs, const std::string& soil) {
   using Sample = dem::AnnulusSample;
-  TestReport out;
-  out.table.header = {"stress [kPa]", "packing", "shear stress at the end [kPa]", "sinkage [mm]"};
+  Table table{"", {"stress [kPa]", "packing", "shear stress at the end [kPa]", "sinkage [mm]"}};
   Json all = Json::array();
   Plot plot = panel("Shear stress [kPa]", "displacement [mm]");
   for (const dem::AnnulusRun& run : runs) {
@@ -236,8 +247,8 @@ TestReport report_on(const std::vector<dem::AnnulusRun>& runs) {
     double mean = 0;
     for (std::size_t k = run.curve.size() - tail; k < run.curve.size(); ++k)
       mean += run.curve[k].shear_stress / static_cast<double>(tail);
-    out.table.rows.push_back({number(run.stress / 1e3), std::to_string(run.packing), number(mean / 1e3),
-                              number(run.curve.back().sinkage * 1e3)});
+    table.add({number(run.stress / 1e3), std::to_string(run.packing), number(mean / 1e3),
+               number(run.curve.back().sinkage * 1e3)});
     all.push_back({{"stress", run.stress},
                    {"packing", run.packing},
                    {"speed", run.speed},
@@ -249,9 +260,8 @@ TestReport report_on(const std::vector<dem::AnnulusRun>& runs) {
              column(run.curve, times(&Sample::displacement, 1e3)),
              column(run.curve, [](const Sample& s) { return s.shear_stress / 1e3; }));
   }
-  out.json = {{"runs", std::move(all)}};
-  out.sheet = {"Ring with grousers", {std::move(plot)}};
-  return out;
+  return report_of("shear", soil, std::move(table), {}, {{"runs", std::move(all)}},
+                   {"Ring with grousers", {std::move(plot)}});
 }
 
 }  // namespace soilbin::compare

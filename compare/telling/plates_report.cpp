@@ -1,0 +1,282 @@
+#include "compare/telling/plates_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "compare/report/json_fields.hpp"
+#include "compare/report/number_text.hpp"
+#include "scenario/mapping_writer.hpp"
+#include "scenario/quantity.hpp"
+#include "scenario/soil_parameters.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using bekker_wong::PlateCurve;
+
+/// Pressure over sinkage: every reading that was used, those set aside that do not lie far beyond them, and Bekker's
+/// form for each plate.
+Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFit& fit, const std::string& title) {
+  Plot plot{"Pressure [kPa]", {"sinkage [mm]", 0.0}, {"", 0.0}};
+  const auto is_aside = [&](const MeasuredPlate& plate) {
+    return std::ranges::any_of(fit.apart, [&](const PlateTestApart& one) {
+      return one.apart.set_aside && one.test == plate.test && one.radius == plate.curve.radius;
+    });
+  };
+  const auto add = [](Series& points, const PlateCurve& curve, double deepest, double highest) {
+    const std::size_t every = curve.pressure.size() / 40 + 1;  // more points than these hide each other
+    for (std::size_t i = 0; i < curve.pressure.size(); i += every)
+      if (curve.sinkage[i] <= deepest && curve.pressure[i] <= highest)
+        points.x.push_back(1e3 * curve.sinkage[i]), points.y.push_back(1e-3 * curve.pressure[i]);
+  };
+  constexpr double everywhere = std::numeric_limits<double>::infinity();
+  double most = 0.0;  // sinkage on a loading curve
+  for (std::size_t k = 0; k < fit.radii.size(); ++k) {
+    const std::string plate = fmt::format("b = {:g} mm", 1000 * fit.radii[k]);
+    double deepest = 0.0;
+    for (const MeasuredPlate& measured : plates) {
+      if (measured.curve.radius != fit.radii[k] || is_aside(measured)) continue;
+      Series points{.label = plate + ", measured", .mark = Mark::points};
+      points.color = static_cast<int>(k);
+      const PlateCurve used =
+          within(readings_of(measured.curve, loading_curve(measured.curve).readings), {fit.lowest, fit.highest});
+      add(points, used, everywhere, everywhere);
+      deepest = std::max(deepest, *std::ranges::max_element(used.sinkage));
+      plot.series.push_back(std::move(points));
+    }
+    Series line{.label = plate + ", Bekker's form"};
+    line.color = static_cast<int>(k);
+    for (int i = 0; i <= 100; ++i) {
+      const double z = deepest * i / 100;
+      line.x.push_back(1e3 * z), line.y.push_back(1e-3 * bekkers_form(fit, fit.radii[k], z));
+    }
+    most = std::max(most, deepest);
+    plot.series.push_back(std::move(line));
+  }
+  Series aside{.label = "set aside", .mark = Mark::points};
+  aside.color = static_cast<int>(fit.radii.size());
+  for (const MeasuredPlate& measured : plates) {
+    std::vector<std::size_t> places;
+    for (const PlateReadingsAside& one : fit.aside)
+      if (one.test == measured.test && one.radius == measured.curve.radius)
+        places.insert(places.end(), one.readings.readings.begin(), one.readings.readings.end());
+    add(aside, is_aside(measured) ? measured.curve : readings_of(measured.curve, places), 1.5 * most,
+        1.5 * fit.highest);
+  }
+  if (!aside.x.empty()) plot.series.push_back(std::move(aside));
+  return {title, {plot}, Palette::named};
+}
+
+/// A value of the fit, as soils name it.
+struct NamedValue {
+  const SoilParameter& parameter;
+  const PlateValue& value;
+};
+
+std::vector<NamedValue> plate_values(const MeasuredPlatesFit& fit) {
+  return {{soil_parameter("exponent"), fit.exponent},
+          {soil_parameter("k_c"), fit.k_c},
+          {soil_parameter("k_phi"), fit.k_phi}};
+}
+
+/// The lines that a campaign or a soil file takes: the sd to two digits, the value to the sd's place.
+std::string yaml_lines(const MeasuredPlatesFit& fit, const std::string& source) {
+  const SoilParameter& exponent = soil_parameter("exponent");
+  if (!exponent.range.holds(fit.exponent.estimate.value))
+    return fmt::format("None for a file: a soil file takes n from {:g} to {:g}.\n", exponent.range.lower,
+                       exponent.range.upper);
+  std::string text = "For campaign.yaml or a soil file:\n\n";
+  for (const auto& [p, value] : plate_values(fit)) {
+    const std::string unit = unit_behind(p.unit);
+    const double sd = value.estimate.std_error * p.per_si, shown = value.estimate.value * p.per_si;
+    const bool presumed = fit.one_size() && std::string_view(p.name) == "k_c";
+    const int places = sd > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(sd))), 0, 9) : 0;
+    text += fmt::format("  {}: {{value: {}{}, sd: {:.{}f}{}, source: {}}}\n", p.name,
+                        sd > 0.0 ? fmt::format("{:.{}f}", shown, places) : write_number(shown), unit, sd, places, unit,
+                        yaml_scalar(presumed ? source + "; presumed: one size of plate" : source));
+  }
+  return text;
+}
+
+/// "lines 3, 7 to 9, 12, ..."
+std::string line_list(const std::vector<int>& lines) {
+  constexpr std::size_t most = 6;
+  if (lines.empty()) return "";
+  std::vector<std::string> runs;
+  for (std::size_t i = 0; i < lines.size();) {
+    std::size_t last = i;
+    while (last + 1 < lines.size() && lines[last + 1] == lines[last] + 1) ++last;
+    if (runs.size() == most) {
+      runs.emplace_back("...");
+      break;
+    }
+    runs.push_back(last == i ? std::to_string(lines[i])
+                             : fmt::format("{}{}{}", lines[i], last == i + 1 ? ", " : " to ", lines[last]));
+    i = last + 1;
+  }
+  return fmt::format("line{} {}", lines.size() == 1 ? "" : "s", fmt::join(runs, ", "));
+}
+
+/// A sentence for each kind of readings that were set aside.
+std::vector<std::string> aside_in_words(const MeasuredPlatesFit& fit) {
+  struct Kind {
+    std::vector<AsideWhy> whys;
+    const char* what;
+  };
+  const std::array<Kind, 3> kinds = {{
+      {{AsideWhy::sinkage_spike, AsideWhy::pressure_spike, AsideWhy::end_spike},
+       "spikes, off the readings around them"},
+      {{AsideWhy::unloading}, "unloading, reloading or holding"},
+      {{AsideWhy::stuck},
+       "a sinkage that stands still under rising pressure (a depth sensor that sticks or is at its end, or hard "
+       "ground)"},
+  }};
+  std::vector<std::string> sentences;
+  for (const Kind& kind : kinds) {
+    std::vector<int> lines;
+    std::set<std::pair<std::string, double>> tests;
+    std::vector<double> stiffness;
+    std::size_t count = 0;
+    for (const PlateReadingsAside& one : fit.aside) {
+      if (std::ranges::find(kind.whys, one.readings.why) == kind.whys.end()) continue;
+      count += one.readings.readings.size();
+      lines.insert(lines.end(), one.lines.begin(), one.lines.end());
+      tests.emplace(one.test, one.radius);
+      if (one.readings.unloading_stiffness) stiffness.push_back(*one.readings.unloading_stiffness);
+    }
+    if (count == 0) continue;
+    std::ranges::sort(lines), std::ranges::sort(stiffness);
+    const std::string where = line_list(lines);
+    sentences.push_back(fmt::format("Set aside as {}: {} of {}{}.", kind.what, counted(count, "reading"),
+                                    counted(tests.size(), "test"), where.empty() ? "" : fmt::format(" ({})", where)));
+    if (stiffness.size() == 1)
+      sentences.push_back(fmt::format("There the slope of pressure over sinkage k_u is {} MN/m^3.",
+                                      number(stiffness.front() / 1e6, 3)));
+    else if (stiffness.size() > 1)
+      sentences.push_back(fmt::format("There the slope of pressure over sinkage k_u is {} to {} MN/m^3.",
+                                      number(stiffness.front() / 1e6, 3), number(stiffness.back() / 1e6, 3)));
+  }
+  return sentences;
+}
+
+/// A sentence for each test that the others disown.
+std::vector<std::string> apart_in_words(const MeasuredPlatesFit& fit) {
+  std::vector<std::string> sentences;
+  for (const PlateTestApart& one : fit.apart) sentences.push_back(capital(in_words(one)));
+  return sentences;
+}
+
+/// soilbin-plates/1
+Json to_json(const MeasuredPlatesFit& fit, std::size_t tests) {
+  Json document = {{"format", "soilbin-plates/1"}, {"tests", tests}};
+  for (const auto& [p, value] : plate_values(fit)) {
+    document[p.name] = estimate_json(value.estimate);
+    document[p.name]["between_tests"] = value.between_tests;
+    document[p.name]["between_pressures"] = value.between_pressures;
+    document[p.name]["between_readings"] = value.between_readings;
+  }
+  document["pressure_error"] = fit.pressure_error;
+  document["test_scatter"] = fit.test_scatter;
+  document["lowest_pressure"] = fit.lowest, document["highest_pressure"] = fit.highest;
+  document["plates"] = Json::array();
+  for (std::size_t k = 0; k < fit.radii.size(); ++k)
+    document["plates"].push_back({{"radius", fit.radii[k]},
+                                  {"tests", fit.tests[k]},
+                                  {"exponent", fit.plate_exponents[k]},
+                                  {"modulus", fit.plate_moduli[k]}});
+  document["plate_sizes"] = fit.radii.size();
+  if (fit.one_size()) {  // k_c and k_phi are not known by themselves
+    document["modulus"] = document["k_phi"];
+    document["modulus"]["radius"] = fit.radii.front();
+    document["k_c"] = nullptr, document["k_phi"] = nullptr;
+  }
+  document["readings"] = fit.readings;
+  document["set_aside"] = Json::array();
+  for (const PlateReadingsAside& one : fit.aside) {
+    Json aside = {{"test", one.test},
+                  {"radius", one.radius},
+                  {"why", word(one.readings.why)},
+                  {"readings", one.readings.readings.size()},
+                  {"lines", one.lines}};
+    if (one.readings.unloading_stiffness) aside["unloading_stiffness"] = finite(*one.readings.unloading_stiffness);
+    document["set_aside"].push_back(std::move(aside));
+  }
+  document["disagreeing_tests"] = Json::array();
+  for (const PlateTestApart& one : fit.apart)
+    document["disagreeing_tests"].push_back({{"test", one.test},
+                                             {"radius", one.radius},
+                                             {"first_line", one.first_line},
+                                             {"last_line", one.last_line},
+                                             {"factor", finite(one.apart.factor)},
+                                             {"as_if", one.apart.unit},
+                                             {"set_aside", one.apart.set_aside}});
+  document["with_all_kept"] = nullptr;
+  if (fit.kept)
+    document["with_all_kept"] = {
+        {"exponent", finite((*fit.kept)[0])}, {"k_c", finite((*fit.kept)[1])}, {"k_phi", finite((*fit.kept)[2])}};
+  return document;
+}
+
+/// The three values with the parts of their errors.
+Table values_table(const MeasuredPlatesFit& fit) {
+  Table table{"", {"value", "fit", "between tests", "between low and high pressures", "of readings"}};
+  for (const auto& [p, value] : plate_values(fit)) {
+    if (fit.one_size() && std::string_view(p.name) == "k_c") continue;
+    const std::string symbol = fit.one_size() && std::string_view(p.name) == "k_phi" ? "k" : p.symbol;
+    table.add({heading(symbol, p.unit), number(value.estimate, p.per_si), number(value.between_tests * p.per_si),
+               number(value.between_pressures * p.per_si), number(value.between_readings * p.per_si)});
+  }
+  return table;
+}
+
+Table plates_table(const MeasuredPlatesFit& fit) {
+  Table table{"", {"b [mm]", "tests", "n of its own", "k at the common n [kN/m^(n+2)]"}};
+  for (std::size_t k = 0; k < fit.radii.size(); ++k)
+    table.add({fmt::format("{:g}", 1000 * fit.radii[k]), std::to_string(fit.tests[k]), number(fit.plate_exponents[k]),
+               number(fit.plate_moduli[k] / 1e3)});
+  return table;
+}
+
+std::vector<std::string> words_on_errors(const MeasuredPlatesFit& fit) {
+  return {"± is one standard error: the three columns beside it, squared and added.",
+          fit.one_size()
+              ? fmt::format(
+                    "k stands for k_c/b + k_phi at b = {:g} mm: one size of plate does not part the two. It is good "
+                    "for a wheel or plate of about this b.",
+                    1000 * fit.radii.front())
+              : std::string("Those of k_c and k_phi hold at this n."),
+          "A file takes the values as independent, which makes pressures less sure than these tests are."};
+}
+
+}  // namespace
+
+Report report_on(const MeasuredPlatesFit& fit, std::span<const MeasuredPlate> plates, const std::string& file) {
+  const std::string sizes = fit.one_size() ? "plates of one size" : fmt::format("plates of {} sizes", fit.radii.size());
+  Report report{file, "Measured plate tests and Bekker's form p = (k_c/b + k_phi) z^n.",
+                fmt::format("{} with {}, {:.2g} to {:.3g} kPa", counted(plates.size(), "test"), sizes, fit.lowest / 1e3,
+                            fit.highest / 1e3)};
+  report.add("Values", values_table(fit));
+  report.add(Sentences(words_on_errors(fit)));
+  report.add("Pressure over sinkage",
+             Figure{plates_sheet(plates, fit, file), "Points: readings; lines: Bekker's form."});
+  report.add("Plate by plate", plates_table(fit));
+  report.add(
+      Sentences({fmt::format("b is a round plate's radius, a strip's width. Bekker's form misses the pressures by "
+                             "{} (root mean square, of the mean pressure).",
+                             percent(fit.pressure_error))}));
+  std::vector<std::string> aside = apart_in_words(fit), of_readings = aside_in_words(fit);
+  aside.insert(aside.end(), of_readings.begin(), of_readings.end());
+  if (fit.kept && !aside.empty())
+    aside.push_back(fmt::format("With everything kept: n = {}, k_c = {} kN/m^(n+1), k_phi = {} kN/m^(n+2).",
+                                number((*fit.kept)[0]), number((*fit.kept)[1] / 1e3), number((*fit.kept)[2] / 1e3)));
+  if (!aside.empty()) report.add("Set aside", Sentences(aside));
+  report.add("For a soil file", Code{yaml_lines(fit, "soilbin plates " + file)});
+  report.data = [&fit, tests = plates.size()] { return to_json(fit, tests); };
+  report.sheet = [&fit, plates, file] { return plates_sheet(plates, fit, file); };
+  return report;
+}
+
+}  // namespace soilbin::compare
