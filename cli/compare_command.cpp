@@ -3,34 +3,28 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 #include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
-#include "cli/text_output.hpp"
 #include "cli/versions.hpp"
-#include "compare/discrepancy/comparison_page.hpp"
-#include "compare/discrepancy/comparison_tables.hpp"
-#include "compare/report/json_fields.hpp"
 #include "compare/sweep/varying.hpp"
-#include "scenario/atomic_file.hpp"
+#include "compare/telling/comparison_report.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 
 namespace soilbin::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct CompareOptions {
-  CsvOutput csv;
-  std::string study, model, measured, report, markdown, replay, title, soil;
+  OutputFlags outputs;
+  std::string study, model, measured, replay, title, soil;
   std::vector<std::string> effects;
-  bool json = false, no_loop = false;
+  bool no_loop = false;
   unsigned seed = 1;
   ConditionFlags conditions;
   SoilBinFlags soil_bin;
@@ -67,57 +61,23 @@ bool asks_grains(Study study, const CompareOptions& asked) {
 /// Throws InputError for a flag that would change nothing beside the others.
 void check_flags(const CompareOptions& asked, const CLI::App& command, const Case& question) {
   check_flags_of_grains(asked.soil_bin, command, question, {.asked = asks_grains(question.study, asked)});
-  if (!asked.title.empty() && asked.report.empty() && asked.markdown.empty())
+  if (!asked.title.empty() && asked.outputs.report.empty() && asked.outputs.markdown.empty())
     throw InputError("--title is the title of a page\n  hint: --report FILE.html, or --markdown DIR");
   if (asked.no_loop && command.count("--seed") > 0)
     throw InputError("--seed is the loop's, and --no-loop leaves it out\n  hint: give one of the two");
 }
 
-void ask_loop(const compare::Comparison& comparison, unsigned seed, compare::ComparisonAbout& about) {
+std::optional<compare::LoopOfComparison> ask_loop(const compare::Comparison& comparison, unsigned seed) {
   compare::LoopOptions options;
   options.attribution.seed = seed;
   options.threads = all_cores();
   options.progress = shown_progress();
   try {
-    compare::ask_loop(comparison, options, about);
+    return compare::ask_loop(comparison, options);
   } catch (const NoSolution& none) {
     fmt::print(stderr, "soilbin: the loop gives no answer: {}\n", none.what());
+    return std::nullopt;
   }
-}
-
-void print_text(const compare::Comparison& comparison, const compare::ComparisonAbout& about) {
-  fmt::print("{}: {} on {}\n", comparison.question.study.name, in_words(comparison.question.scenario.tire),
-             compare::in_words(comparison.question.scenario.soil));
-  if (const std::string errors = compare::errors_in_words(comparison.question.scenario); !errors.empty())
-    fmt::print("{}\n", errors);
-  fmt::print("\n");
-  const auto print = [](const std::vector<compare::Clause>& clauses) {
-    for (const compare::Clause& clause : clauses)
-      fmt::print("{}{}\n", clause.about.empty() ? "" : clause.about + ": ", clause.text);
-  };
-  print(compare::opening(comparison));
-  const compare::Table table = compare::tally_table(comparison);
-  if (!table.rows.empty()) fmt::print("\n{}\n", as_text(table));
-  print(compare::cause_clauses(comparison));
-  if (about.loop) print(compare::missing_clauses(*about.loop, about.mistaken_columns));
-  print(compare::limits_of_the_comparison(comparison));
-}
-
-Outputs save(const compare::Comparison& comparison, const compare::ComparisonAbout& about,
-             const CompareOptions& asked) {
-  Outputs outputs;
-  outputs.write(asked.report, [&] {
-    write_file_atomically(asked.report, compare::comparison_page(comparison, about));
-    fmt::print(stderr, "wrote {}: open it in a browser\n", asked.report);
-    for (const std::string& package : compare::find_libraries().missing)
-      fmt::print(stderr, "soilbin: without {} some figures of the page are plain drawings\n", package);
-  });
-  outputs.csv(asked.csv, [&] { return compare::differences_csv(comparison); });
-  outputs.write(asked.markdown, [&] {
-    compare::write_markdown(asked.markdown, comparison, about);
-    fmt::print(stderr, "wrote {}\n", (fs::path(asked.markdown) / "report.md").string());
-  });
-  return outputs;
 }
 
 /// What a title calls the soil where the analytic model's values are another one's.
@@ -138,8 +98,6 @@ int compare_models(CompareOptions asked, const CLI::App& command, const Session&
   check_flags(asked, command, question);
   compare::ComparisonAbout about;
   std::string values_of;  // the soil that --soil names
-  asked.csv.needs_a_file(!asked.markdown.empty(), "--markdown");
-  about.decimal_comma = asked.csv.decimal_comma;
   if (!asked.soil.empty()) {
     const Soil given = find_soil(asked.soil, session.place.library);
     question.scenario.soil.semi_empirical = given.semi_empirical;
@@ -149,7 +107,8 @@ int compare_models(CompareOptions asked, const CLI::App& command, const Session&
   if (!asked.no_loop) compare::check_soil_for_loop(question.scenario.soil);  // refused before anything is run
   if (!asked.replay.empty()) {
     about.replay = compare::read_replay(asked.replay);
-    if (asked.report.empty()) throw InputError("--replay is shown on the page alone\n  hint: --report FILE.html");
+    if (asked.outputs.report.empty())
+      throw InputError("--replay is shown on the page alone\n  hint: --report FILE.html");
   }
   const std::vector<ModelChoice> choices = choices_of(question, asked, session);
   std::vector<compare::Side> sides = compare::analytic_sides(question, choices, shown_progress());
@@ -161,23 +120,19 @@ int compare_models(CompareOptions asked, const CLI::App& command, const Session&
     about.facts.insert(about.facts.end(), of.grains.facts.begin(), of.grains.facts.end());
     sides.push_back(std::move(of.grains.side)), runs = std::move(of.runs);
   }
-  about.page.doubts = compare::doubts(question, choices, sides);
+  std::vector<std::string> doubts = compare::doubts(question, choices, sides);
   if (std::string density = compare::bed_density_doubt(question.scenario.soil, runs); !density.empty())
-    about.page.doubts.push_back(std::move(density));
+    doubts.push_back(std::move(density));
   question.scenario.soil.name = soil_of_both(question.scenario.soil.name, values_of, !runs.empty());
-  print_warnings(about.page.doubts);
   if (!asked.measured.empty())
     sides.push_back(compare::side_of(find_campaign(session.place, asked.measured), question));
   const compare::Comparison comparison = compare::compare_sides(question, choices, std::move(sides));
-  if (!asked.no_loop) ask_loop(comparison, asked.seed, about);
-  about.page.title = asked.title.empty() ? "Comparison: " + question.study.name : asked.title;
-  about.page.command = session.command, about.page.versions = versions();
+  if (!asked.no_loop) about.loop = ask_loop(comparison, asked.seed);
+  about.title = asked.title.empty() ? "Comparison: " + question.study.name : asked.title;
+  about.command = session.command, about.versions = versions();
   about.resolved_case = write_case(question, session.place.effects);
-  const Outputs outputs = save(comparison, about, asked);
-  if (asked.json)
-    print_json(compare::comparison_json(comparison, about));
-  else
-    print_text(comparison, about);
+  const compare::ToldComparison told(comparison, std::move(about));
+  const Outputs outputs = publish(compare::report_on(told), asked.outputs, doubts, session);
   delete_restarts(runs, outputs);
   return outputs.status(done);
 }
@@ -196,16 +151,11 @@ void add_compare(CLI::App& app, Session& session) {
             "the analytic model's values from this soil, as bevameter writes one");
   add_value(*command, "--effect", asked->effects, "ID[:FORM][,PARAMETER=VALUE][+ID...]",
             "one more side: the analytic model with this effect, or with several joined by '+'; repeatable");
-  add_file(*command, "--report", asked->report, "FILE.html", "write everything as one page");
-  add_folder(*command, "--markdown", asked->markdown, "write it as Markdown with SVGs and the figures' data",
-             {"case.yaml"});
-  add_file(*command, "--csv", asked->csv.file, "FILE.csv", "save every row");
-  add_decimal_comma(*command, asked->csv);
+  asked->outputs.add_to(*command, {.json = "soilbin-compare/1, in SI", .csv = "save every row"});
   add_value(*command, "--replay", asked->replay, "FILE", "a replay of grains to put into the page");
   add_value(*command, "--title", asked->title, "TEXT", "title of the page");
   command->add_flag("--no-loop", asked->no_loop, "do not look for what the analytic model lacks");
   add_value(*command, "--seed", asked->seed, "N", "seed of the loop's simulations and folds");
-  command->add_flag("--json", asked->json, "soilbin-compare/1, in SI");
   asked->conditions.add_to(*command);
   asked->soil_bin.add_to(*command);
   command->footer(

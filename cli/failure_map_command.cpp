@@ -11,11 +11,10 @@
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
-#include "cli/versions.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/experiments/failure_map_grains.hpp"
 #include "compare/experiments/run_plan.hpp"
-#include "compare/failure_map/map_report.hpp"
+#include "compare/telling/failure_map_report.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/nearest_word.hpp"
 
@@ -26,12 +25,13 @@ namespace {
 constexpr long long most_conditions_of_map = 1000;
 
 struct FailureMapOptions {
-  std::string study, soil, incline = "longitudinal", store, report, tolerance = "10%";
+  std::string study, soil, incline = "longitudinal", store, tolerance = "10%";
   std::string load, lug_height, angle, slip;
   std::vector<std::string> effects;
   int first = 24, at_boundary = 12, fresh = 0, rounds = 4;
   unsigned seed = 1;
-  bool json = false, rows = false, stored = false, dry_run = false;
+  OutputFlags outputs;
+  bool rows = false, stored = false, dry_run = false;
   SoilBinFlags soil_bin;
   BatchFlags batch;
 };
@@ -71,14 +71,6 @@ void show_run(int done, int total) {
   show_progress_line(fmt::format("condition {} of {}", done + 1, total));
 }
 
-void print_map(const compare::FailureMapResult& result, bool rows) {
-  for (const auto& [name, text] : compare::opening(result)) fmt::print("{}: {}\n", name, text);
-  for (const std::string& sentence : compare::details(result)) fmt::print("{}\n", sentence);
-  if (rows) fmt::print("\n{}", as_text(compare::rows_table(result)));
-  fmt::print("\n{}", as_text(compare::coordinates_table(result)));
-  if (!result.checks.empty()) fmt::print("\n{}", as_text(compare::checks_table(result)));
-}
-
 /// The experiments that the map would make first, as runs and their cost; more are chosen by their answers.
 int plan(const FailureMapOptions& asked, Case question, const compare::InclineMap& map,
          const std::vector<compare::AskedExperiment>& experiments) {
@@ -101,7 +93,7 @@ int plan(const FailureMapOptions& asked, Case question, const compare::InclineMa
   std::vector<std::string> doubts = compare::doubts(question);
   for (std::string& doubt : bed_doubts(asked.soil_bin, question)) doubts.push_back(std::move(doubt));
   print_warnings(doubts);
-  if (asked.json)
+  if (asked.outputs.json)
     print_json(compare::plan_json(plan), doubts);
   else
     fmt::print("{}then      more where the models may part (--boundary {}, --rounds {}) or to check (--check {})\n",
@@ -139,22 +131,16 @@ int failure_map(const FailureMapOptions& asked, const CLI::App& command, const S
                                  .fresh = asked.fresh,
                                  .tolerance = read_flag("--tolerance", asked.tolerance, {"%", above_zero}),
                                  .packing = static_cast<std::uint64_t>(asked.soil_bin.packing)};
-  Outputs outputs;
   try {
     compare::FailureMapResult result = compare::learn_map(map, grains, store, how);
     if (std::string& soil = result.map.scenario.soil.name; !values_of.empty() && values_of != soil)
       soil += ", analytic values of " + values_of;
     clear_progress_line();
     if (asked.dry_run) return plan(asked, question, map, {});
-    const compare::PageAbout about{"Failure map: " + name_of(result.map.incline), session.command, versions(),
-                                   doubts_of(result, grains, store)};
-    print_warnings(about.doubts);
-    outputs.file(asked.report,
-                 [&] { return compare::failure_map_page(result, about, write_case(question, session.place.effects)); });
-    if (asked.json)
-      print_json(compare::failure_map_json(result), about.doubts);
-    else
-      print_map(result, asked.rows);
+    const compare::FailureMapAbout about{"Failure map: " + name_of(result.map.incline),
+                                         write_case(question, session.place.effects), asked.rows};
+    return publish(compare::report_on(result, about), asked.outputs, doubts_of(result, grains, store), session)
+        .status(done);
   } catch (const compare::ExperimentsAsked& more) {
     clear_progress_line();
     if (asked.dry_run) return plan(asked, question, map, more.experiments);
@@ -164,7 +150,6 @@ int failure_map(const FailureMapOptions& asked, const CLI::App& command, const S
       fmt::print(stderr, "\n{} runs are in {}: the same command goes on from there", store.size(), asked.store);
     throw;
   }
-  return outputs.status(done);
 }
 
 }  // namespace
@@ -200,14 +185,13 @@ void add_failure_map(CLI::App& app, Session& session) {
   add_value(*command, "--store", asked->store, "FILE.json", "keep each run in this file, and go on with what is there");
   command->add_flag("--stored", asked->stored, "answer from the store alone, without running");
   asked->batch.add_to(*command);
-  add_file(*command, "--report", asked->report, "FILE.html", "write the report as one page");
   add_value(*command, "--seed", asked->seed, "N", "seed of the design; 1");
   command->add_flag("--show-rows", asked->rows, "print every condition run");
-  command->add_flag("--json", asked->json, "soilbin-failure-map/1, in SI");
+  asked->outputs.add_to(*command, {.json = "soilbin-failure-map/1, in SI"});
   asked->soil_bin.add_to(*command);
   command->add_flag("--dry-run", asked->dry_run, "make nothing; list the runs that come next and what they will cost")
       ->group(grains_heading);
-  for (const char* other : {"--ask", "--batch", "--stored", "--report"})
+  for (const char* other : {"--ask", "--batch", "--stored", "--report", "--markdown"})
     command->get_option("--dry-run")->excludes(other);
   // A map keeps its runs in a store, each in one packing.
   for (const char* other : {"--record", "--recorded", "--packings"}) command->remove_option(command->get_option(other));

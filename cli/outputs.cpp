@@ -97,22 +97,31 @@ void add_plot(CLI::App& command, std::string& name, const char* meaning) {
 
 void OutputFlags::add_to(CLI::App& command, const Meanings& meanings) {
   if (meanings.plot) add_plot(command, plot, meanings.plot);
-  if (meanings.csv) add_csv(command, csv, meanings.csv);
   add_file(command, "--report", report, "FILE.html", "save a page to open in a browser");
-  add_folder(command, "--markdown", markdown, "write it as Markdown with its figures and their data", {"report.md"});
+  add_folder(command, "--markdown", markdown, "write it as Markdown with its figures and their data", {"case.yaml"});
+  if (meanings.csv) {
+    add_file(command, "--csv", csv.file, "FILE.csv", meanings.csv);
+    add_decimal_comma(command, csv);
+    command.parse_complete_callback([this] { csv.needs_a_file(!markdown.empty(), "--markdown"); });
+  }
   command.add_flag("--json", json, meanings.json);
 }
 
 Outputs publish(const compare::Report& report, const OutputFlags& asked, const std::vector<std::string>& doubts,
                 const Session& session) {
   print_warnings(doubts);
-  const compare::PageAbout about{report.title, session.command, versions(), doubts};
+  const compare::PageAbout about{"", session.command, versions(), doubts};
   Outputs outputs;
   outputs.csv(asked.csv, report.csv);
   outputs.drawing(asked.plot, report.sheet);
-  outputs.file(asked.report, [&] { return compare::page_of(report, about); });
-  outputs.write(asked.markdown,
-                [&] { compare::write_markdown(asked.markdown, report, about, asked.csv.decimal_comma); });
+  outputs.write(asked.report, [&] {
+    write_file_atomically(asked.report, compare::page_of(report, about));
+    fmt::print(stderr, "wrote {}: open it in a browser\n", asked.report);
+  });
+  outputs.write(asked.markdown, [&] {
+    compare::write_markdown(asked.markdown, report, about, asked.csv.decimal_comma);
+    fmt::print(stderr, "wrote {}\n", (std::filesystem::path(asked.markdown) / "report.md").string());
+  });
   if (asked.json)
     print_json(report.data(), doubts);
   else

@@ -10,10 +10,8 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
-#include "cli/text_output.hpp"
-#include "cli/versions.hpp"
-#include "compare/reproduction/reproduction_report.hpp"
 #include "compare/reproduction/study_answers.hpp"
+#include "compare/telling/reproduction_report.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 
@@ -23,9 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ReproduceOptions {
-  std::string findings = "paper", report;
+  std::string findings = "paper";
+  OutputFlags outputs;
   std::vector<std::string> recorded;
-  bool json = false;
 };
 
 /// A name of the library's findings, or a path.
@@ -62,13 +60,6 @@ std::vector<compare::StudyRecord> records_of(std::vector<std::string> files, con
   return records;
 }
 
-void print_text(const compare::Reproduction& reproduction) {
-  fmt::print("{}\n\n", reproduction.findings.source);
-  for (const auto& [about, text] : compare::opening(reproduction)) fmt::print("{}: {}\n", about, text);
-  fmt::print("\n{}\n", as_text(compare::findings_matrix(reproduction)));
-  for (const std::string& remark : reproduction.remarks) fmt::print("{}\n", remark);
-}
-
 int reproduce(const ReproduceOptions& options, const Session& session) {
   const compare::Findings findings = compare::read_findings(findings_file(session.place, options.findings));
   const compare::AnsweredStudies answered = compare::answer_studies(
@@ -76,18 +67,7 @@ int reproduce(const ReproduceOptions& options, const Session& session) {
       [&](const std::string& study) { return find_case(session.place, study); }, shown_progress);
   compare::Reproduction reproduction = compare::reproduce(findings, answered.answers);
   reproduction.remarks = answered.remarks;
-  const std::vector<std::string> doubts = answered.doubts.lines();
-  print_warnings(doubts);
-  Outputs outputs;
-  outputs.file(options.report, [&] {
-    return compare::reproduction_page(
-        reproduction, {"What of " + findings.name + " is reproduced", session.command, versions(), doubts});
-  });
-  if (options.json)
-    print_json(compare::to_json(reproduction), doubts);
-  else
-    print_text(reproduction);
-  return outputs.status(done);
+  return publish(compare::report_on(reproduction), options.outputs, answered.doubts.lines(), session).status(done);
 }
 
 }  // namespace
@@ -99,8 +79,7 @@ void add_reproduce(CLI::App& app, Session& session) {
             "findings of the library, or a YAML file; by default those of the paper");
   add_value(*command, "--recorded", options->recorded, "FILE.json...",
             "records of dem, one a study; by default the library's");
-  add_file(*command, "--report", options->report, "FILE.html", "save a page to open");
-  command->add_flag("--json", options->json, "the verdicts as JSON, in SI");
+  options->outputs.add_to(*command, {.json = "the verdicts as JSON, in SI"});
   command->footer("Example: soilbin reproduce --report reproduction.html");
   command->callback([=, &session] { session.action = [=, &session] { return reproduce(*options, session); }; });
 }

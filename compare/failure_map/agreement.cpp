@@ -1,12 +1,9 @@
 // The box of conditions in which two models agree, as a clause.
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "compare/failure_map/failure_map.hpp"
-#include "compare/report/number_text.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -123,34 +120,6 @@ struct BoxSearch {
   }
 };
 
-std::string bare(const Factor& factor, double value) { return fmt::format("{:.3g}", value * per_unit(factor.unit)); }
-
-std::string with_unit(const Factor& factor, double value) { return bare(factor, value) + unit_behind(factor.unit); }
-
-/// "load up to 4 kN", "load from 3 kN", "load from 3 to 4 kN"; empty where the box has the whole range.
-std::string range_of(const Factor& factor, double lower, double upper) {
-  const bool from = lower > factor.lower, to = upper < factor.upper;
-  if (from && to) return fmt::format("{} from {} to {}", factor.name, bare(factor, lower), with_unit(factor, upper));
-  if (from) return fmt::format("{} from {}", factor.name, with_unit(factor, lower));
-  return to ? fmt::format("{} up to {}", factor.name, with_unit(factor, upper)) : "";
-}
-
-std::string text_of(const FailureQuestion& question, const std::vector<Role>& roles, const AgreementClause& clause) {
-  std::string limits, held, ranges;
-  for (std::size_t j = 0; j < roles.size(); ++j) {
-    const Factor& factor = question.factors[j];
-    if (roles[j] == Role::limited)
-      limits +=
-          fmt::format("{}{} {}", limits.empty() ? " up to " : " and ", factor.name, with_unit(factor, clause.upper[j]));
-    if (roles[j] == Role::held) held += fmt::format(", at {} {}", factor.name, with_unit(factor, factor.lower));
-    if (roles[j] == Role::bounded)
-      if (const std::string range = range_of(factor, clause.lower[j], clause.upper[j]); !range.empty())
-        ranges += (ranges.empty() ? " with " : ", ") + range;
-  }
-  return fmt::format("{}: within {:.3g} % of the load{}{}{}; {} conditions run there, largest error {:.1f} %",
-                     question.name, 100 * question.tolerance, limits, held, ranges, clause.rows, 100 * clause.largest);
-}
-
 /// Counts the rows in the box and finds the one farthest off. A held factor counts up to a tenth of its range.
 void back_up(const FailureQuestion& question, const FailureMap& map, const std::vector<Role>& roles,
              AgreementClause& clause) {
@@ -217,11 +186,9 @@ std::optional<AgreementClause> agreement(const FailureQuestion& question, Failur
     box = largest_box(question, map, roles, grid);
   }
   if (!box) return std::nullopt;
-  AgreementClause clause;
-  clause.lower = box->lower, clause.upper = box->upper;
+  AgreementClause clause{.roles = roles, .lower = box->lower, .upper = box->upper};
   back_up(question, map, roles, clause);
   if (clause.rows == 0) return std::nullopt;
-  clause.text = text_of(question, roles, clause);
   return clause;
 }
 

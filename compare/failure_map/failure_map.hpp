@@ -67,21 +67,21 @@ void add_row(const FailureQuestion& question, const Eigen::VectorXd& values, Fai
 /// one batch, where the question's runs only ask.
 FailureMap map_failures(const FailureQuestion& question, const FailureMapOptions& options = {});
 
-/// The largest box of conditions in which the models agree, and what it rests on.
-struct AgreementClause {
-  std::string text;                        ///< in plain words
-  std::vector<double> lower, upper;        ///< of each factor [SI]
-  int rows = 0;                            ///< that were run in the box
-  double largest = 0.0;                    ///< |difference| among them, share of the load
-  std::optional<Eigen::VectorXd> witness;  ///< the row with it
-};
-
-/// How a clause speaks of a factor.
+/// What the box does with a factor.
 enum class Role {
   limited,  ///< "up to ...": the box reaches from the lower bound to a limit that is sought
   bounded,  ///< "from ... to ...": both ends are sought
   held,     ///< at its lower bound: "without lugs"
   whole,    ///< over all of its range, not mentioned
+};
+
+/// The largest box of conditions in which the models agree, and what it rests on.
+struct AgreementClause {
+  std::vector<Role> roles;                 ///< of each factor
+  std::vector<double> lower, upper;        ///< of each factor [SI]
+  int rows = 0;                            ///< that were run in the box
+  double largest = 0.0;                    ///< |difference| among them, share of the load
+  std::optional<Eigen::VectorXd> witness{};  ///< the row with it
 };
 
 /// The box of the largest share of the limited and bounded factors' ranges within which |difference| stays

@@ -1,8 +1,8 @@
 // A failure map learnt, with all that is to be said of it: where the models agree, how well the map knows, what there
-// is to doubt. map_report.hpp puts it into words, tables, pictures and JSON.
+// is to doubt. telling/failure_map_report.hpp tells it.
 //
 //   const FailureMapResult result = learn_map(map, grains, store, {.tolerance = 0.1});
-//   for (const std::string& sentence : map_summary(result)) fmt::print("{}\n", sentence);
+//   for (const AgreementClause& clause : result.clauses) clause.lower, clause.upper;
 #pragma once
 
 #include "compare/failure_map/incline_map.hpp"

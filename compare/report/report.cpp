@@ -1,6 +1,6 @@
 #include "compare/report/report.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -17,9 +17,8 @@ Table table_of(const NamedValues& values) {
   return table;
 }
 
-// On a terminal. Sentences follow each other, anything else stands between blank lines.
-
-class TerminalText {
+/// Sentences follow each other, anything else stands between blank lines.
+class TerminalWriter {
  public:
   void block(const std::string& text) { add(text, true); }
   void lines(const std::vector<std::string>& lines) {
@@ -29,6 +28,12 @@ class TerminalText {
     for (const BackedSentence& one : sentences.all)
       add((one.about.empty() ? "" : one.about + ": ") + one.text + "\n", false);
   }
+  void tell(const Prose& prose) {
+    for (const std::string& paragraph : prose.paragraphs) add(paragraph + "\n", false);
+  }
+  void tell(const Items& items) {
+    for (const std::string& item : items.all) add(item + "\n", false);
+  }
   void tell(const NamedValues& values) {
     std::size_t longest = 0;
     for (const auto& [name, value] : values.all) longest = std::max(longest, name.size());
@@ -36,13 +41,12 @@ class TerminalText {
     for (const auto& [name, value] : values.all) text += fmt::format("  {:<{}}{}\n", name, longest + 2, value);
     block(text);
   }
-  void tell(Table table) {
-    table.caption.clear();
+  void tell(const Table& table) {
     if (!table.rows.empty()) block(as_text(table));
   }
   void tell(const Code& code) { block(code.text); }
-  void tell(const Figure&) {}
-  void tell(const Drawing&) {}
+  template <class Drawn>
+  void tell(const Drawn&) {}
   const std::string& all() const { return all_; }
 
  private:
@@ -55,84 +59,172 @@ class TerminalText {
   bool ends_with_block_ = false;
 };
 
-void tell(Page& page, const Sentences& sentences) { page.backed_summary(sentences.all); }
-void tell(Page& page, const NamedValues& values) { page.table(table_of(values)); }
-void tell(Page& page, const Table& table) { page.table(table); }
-void tell(Page& page, const Figure& figure) { page.figure(figure.sheet, figure.caption); }
-void tell(Page& page, const Drawing& drawing) { page.drawing(drawing.svg, drawing.caption); }
-void tell(Page& page, const Code& code) { page.code(code.text); }
+class PageWriter {
+ public:
+  PageWriter(const Report& report, const PageAbout& about)
+      : page_(about.title.empty() ? report.title : about.title, report.subtitle), doubts_(about.doubts) {}
 
-/// Figures are numbered.
-class MarkdownReport : public MarkdownFolder {
+  void tell(const std::vector<ReportPart>& parts) {
+    for (const ReportPart& part : parts) {
+      if (!holds(part.told, Told::on_pages)) continue;
+      if (!part.section.empty()) head(part);
+      std::visit([&](const auto& content) { tell(content); }, part.content);
+    }
+  }
+  void tell(const Sentences& sentences) { page_.backed_summary(sentences.all); }
+  void tell(const Prose& prose) {
+    for (const std::string& paragraph : prose.paragraphs) page_.paragraph(paragraph);
+  }
+  void tell(const Items& items) { page_.list(items.all); }
+  void tell(const NamedValues& values) { page_.table(table_of(values)); }
+  void tell(const Table& table) { page_.table(table); }
+  void tell(const Code& code) { page_.code(code.text); }
+  void tell(const KeyFigures& figures) { page_.figures_at_a_glance(figures.all); }
+  void tell(const Figure& figure) {
+    if (const Sheet sheet = figure.sheet(); !sheet.plots.empty()) page_.figure(sheet, figure.caption);
+  }
+  void tell(const Drawings& drawings) {
+    if (drawings.are_heat_maps) return page_.heat_maps(drawings.svgs, drawings.caption);
+    for (const std::string& svg : drawings.svgs) page_.drawing(svg, drawings.caption);
+  }
+  void tell(const Fold& fold) {
+    page_.folded(
+        fold.title, [&] { tell(fold.parts()); }, fold.anchor);
+  }
+  void tell(const Choices& choices) {
+    std::vector<Choice> all;
+    for (const auto& [name, parts] : choices.all) all.push_back({name, [this, &parts = parts] { tell(parts()); }});
+    page_.choices(choices.what, all, choices.first);
+  }
+  void tell(const ReplayView& replay) { page_.replay(replay.title, replay.bytes, replay.caption); }
+  void tell(const Html& html) { page_.raw(html.text); }
+  void tell(const WarningsHere&) { page_.doubts(doubts_); }
+  Page& page() { return page_; }
+
+ private:
+  void head(const ReportPart& part) {
+    if (part.heading == ReportPart::Heading::place) return page_.place(part.section, part.anchor);
+    if (part.heading == ReportPart::Heading::subsection) return page_.subsection(part.section);
+    page_.section(part.section, part.anchor);
+  }
+
+  Page page_;
+  const std::vector<std::string>& doubts_;
+};
+
+class MarkdownWriter : public MarkdownFolder {
  public:
   using MarkdownFolder::MarkdownFolder;
 
+  void tell(const std::vector<ReportPart>& parts) {
+    for (const ReportPart& part : parts) {
+      if (!holds(part.told, Told::in_documents) || std::holds_alternative<Fold>(part.content)) continue;
+      if (!part.section.empty())
+        text((part.heading == ReportPart::Heading::subsection ? "### " : "## ") + plain(part.section));
+      std::visit([&](const auto& content) { tell(content); }, part.content);
+    }
+  }
   void tell(const Sentences& sentences) {
     for (const BackedSentence& one : sentences.all)
       text(fmt::format("- {}{}", one.about.empty() ? "" : "**" + plain(one.about) + ".** ", plain(one.text)));
   }
+  void tell(const Prose& prose) {
+    for (const std::string& paragraph : prose.paragraphs) text(plain(paragraph));
+  }
+  void tell(const Items& items) {
+    for (const std::string& item : items.all) text("- " + plain(item));
+  }
   void tell(const NamedValues& values) { table(table_of(values)); }
   void tell(const Table& one) { table(one); }
-  void tell(const Figure& one) { figure(next_name(), one.sheet); }
-  void tell(const Drawing& one) { picture(next_name(), one.svg, one.caption); }
   void tell(const Code& code) { text("```\n" + code.text + "```"); }
+  void tell(const KeyFigures& figures) {
+    for (const KeyFigure& one : figures.all) text(fmt::format("- {}: {}", plain(one.meaning), plain(one.value)));
+  }
+  void tell(const Figure& one) { figure(one.name.empty() ? next_name() : one.name, one.sheet()); }
+  void tell(const Drawings& drawings) {
+    std::size_t place = 0;
+    for (const std::string& svg : drawings.svgs)
+      picture(drawings.name.empty()       ? next_name()
+              : drawings.svgs.size() == 1 ? drawings.name
+                                          : fmt::format("{}-{}", drawings.name, ++place),
+              svg, drawings.caption);
+  }
+  void tell(const Choices& choices) {
+    for (std::size_t i = 0; i < choices.all.size(); ++i)
+      if (choices.all_in_documents || i == choices.first)
+        text("### " + plain(choices.all[i].first)), tell(choices.all[i].second());
+  }
+  template <class OfPages>
+  void tell(const OfPages&) {}
 
  private:
   std::string next_name() { return fmt::format("figure-{}", ++figures_); }
   int figures_ = 0;
 };
 
+/// The parts with a place for the doubts, which stand behind the first sentences where nothing else is said.
+std::vector<ReportPart> with_warnings(std::vector<ReportPart> parts) {
+  const auto is_a = [](auto type) {
+    return [type](const ReportPart& part) { return std::holds_alternative<decltype(type)>(part.content); };
+  };
+  if (std::ranges::any_of(parts, is_a(WarningsHere()))) return parts;
+  const auto first = std::ranges::find_if(parts, [&](const ReportPart& part) {
+    return holds(part.told, Told::on_pages) && std::holds_alternative<Sentences>(part.content);
+  });
+  parts.insert(first == parts.end() ? first : first + 1, {WarningsHere()});
+  return parts;
+}
+
 }  // namespace
 
 std::string text_of(const Report& report) {
-  TerminalText text;
+  TerminalWriter text;
   if (!report.heading.empty()) text.block(report.heading + "\n");
   for (const ReportPart& part : report.parts)
-    if (part.told != Told::on_pages) std::visit([&](const auto& content) { text.tell(content); }, part.content);
+    if (holds(part.told, Told::on_terminals))
+      std::visit([&](const auto& content) { text.tell(content); }, part.content);
   text.lines(report.notes);
   return text.all();
 }
 
 std::string page_of(const Report& report, const PageAbout& about) {
-  Page page(about.title.empty() ? report.title : about.title, report.subtitle);
-  bool warned = false;
-  for (const ReportPart& part : report.parts) {
-    if (part.told == Told::on_terminals) continue;
-    if (!part.section.empty()) page.section(part.section);
-    std::visit([&](const auto& content) { tell(page, content); }, part.content);
-    if (!warned && std::holds_alternative<Sentences>(part.content)) page.doubts(about.doubts), warned = true;
-  }
-  if (!warned) page.doubts(about.doubts);
-  page.section("Made by");
+  PageWriter writer(report, about);
+  Page& page = writer.page();
+  if (const std::vector<std::string>& missing = page.libraries().missing; !missing.empty())
+    page.raw(
+        fmt::format("<p class=\"warning\" role=\"note\">Made without {}: the figures that need it are plain drawings. "
+                    "Install it and make the page again.</p>\n",
+                    escaped(fmt::format("{}", fmt::join(missing, ", ")))));
+  writer.tell(with_warnings(report.parts));
+  page.section("How to repeat this", "repeat");
   page.code(about.command);
-  std::vector<std::string> made = report.notes;
-  for (const auto& [name, version] : about.versions) made.push_back(name + " " + version);
-  page.list(made);
+  if (!report.notes.empty()) page.list(report.notes);
+  page.facts({"part", ""}, {&report.made_of, &about.versions});
+  if (!report.resolved_case.empty()) page.folded("The resolved case", [&] { page.code(report.resolved_case); });
   return page.html();
 }
 
 void write_markdown(const std::filesystem::path& folder, const Report& report, const PageAbout& about,
                     bool decimal_comma) {
-  MarkdownReport md(folder, decimal_comma);
+  MarkdownWriter md(folder, decimal_comma);
   md.text("# " + plain(about.title.empty() ? report.title : about.title));
   if (!report.subtitle.empty()) md.text(plain(report.subtitle));
-  for (const ReportPart& part : report.parts) {
-    if (part.told == Told::on_terminals) continue;
-    if (!part.section.empty()) md.text("## " + plain(part.section));
-    std::visit([&](const auto& content) { md.tell(content); }, part.content);
-  }
+  md.tell(report.parts);
   if (!about.doubts.empty()) md.text("## Warnings");
-  for (const std::string& doubt : about.doubts) md.text("- " + plain(doubt));
-  md.text("## Made by");
+  md.tell(Items{about.doubts});
+  md.text("## How to repeat this");
   md.text("    " + about.command);
-  for (const std::string& note : report.notes) md.text("- " + plain(note));
-  for (const auto& [name, version] : about.versions) md.text(fmt::format("- {} {}", plain(name), plain(version)));
+  if (!report.resolved_case.empty()) md.text("The resolved case is [case.yaml](case.yaml).");
+  md.tell(Items{report.notes});
+  for (const auto* list : {&report.made_of, &about.versions})
+    for (const auto& [name, value] : *list) md.text(fmt::format("- {}: {}", plain(name), plain(value)));
   md.write();
-  if (report.csv) md.csv("data", report.csv());
+  if (!report.resolved_case.empty()) md.file("case.yaml", report.resolved_case);
+  if (report.csv) md.csv(report.csv_name, report.csv());
   if (!report.data) return;
   nlohmann::ordered_json data = report.data();
   add_warnings(data, about.doubts);
-  md.file("data.json", json_text(data));
+  md.file(report.data_name + ".json", json_text(data));
 }
 
 }  // namespace soilbin::compare

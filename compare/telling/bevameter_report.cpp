@@ -86,7 +86,7 @@ Report report_on(const BevameterFit& fit, const BevameterReadings& readings, con
   left.push_back(fmt::format("Bekker's form misses the pressures by {} % (root mean square over mean)",
                              number(fit.pressure_error * 100)));
   report.add(Sentences(left));
-  report.add("Curves", Figure{sheet(), "Points: simulated; lines: the fit."});
+  report.add("Curves", Figure{sheet, "Points: simulated; lines: the fit."});
   report.data = [&soil, &fit, density = readings.density] { return bevameter_json(soil, fit, density); };
   report.sheet = sheet;
   return report;

@@ -134,7 +134,7 @@ std::string words_on_steepest(const AnalyticDrive& part) {
 }
 
 /// "the wheel is stuck"
-std::string in_words(DriveEnd end) {
+std::string end_in_words(DriveEnd end) {
   switch (end) {
     case DriveEnd::time_is_up:
       return "time is up";
@@ -156,9 +156,9 @@ std::string with_error(double value, const std::optional<double>& std_error) {
   return std_error && *std_error > 0.0 ? number(Estimate{value, *std_error}) : fmt::format("{:.4g}", value);
 }
 
-std::string in_words(const MovedDrive::Side& side) {
+std::string moved_in_words(const MovedDrive::Side& side) {
   if (!side.record) return "the soil can't hold the wheel at its start";
-  return fmt::format("{} after {} s and {} m", in_words(side.record->end), number(side.record->end_time),
+  return fmt::format("{} after {} s and {} m", end_in_words(side.record->end), number(side.record->end_time),
                      number(side.record->samples.back().travelled));
 }
 
@@ -229,19 +229,19 @@ std::vector<std::string> words_on_errors(const AnalyticDrive& part) {
       sentences.push_back(fmt::format("With {}{} a standard deviation {} ({}{}) {}.", drive.soil.empty() ? "" : "the ",
                                       drive.soil.empty() ? drive.title : drive.title + " of " + drive.soil,
                                       side == &drive.lower ? "lower" : "higher", number(side->value * drive.per_si),
-                                      unit_behind(drive.unit), in_words(*side)));
+                                      unit_behind(drive.unit), moved_in_words(*side)));
     }
   return sentences;
 }
 
-std::vector<std::string> in_words(const AnalyticDrive& part) {
+std::vector<std::string> sentences_of(const AnalyticDrive& part) {
   const bekker_wong::DriveRecord& record = part.record;
   const DriveSample& end = record.samples.back();
   std::vector<std::string> sentences;
   const DriveErrors& errors = part.errors;
   // A time that is given and a place that is reached have no error.
   sentences.push_back(fmt::format(
-      "{} after {} s and {} m, on a slope of {:.3g} deg.", capital(in_words(record.end)),
+      "{} after {} s and {} m, on a slope of {:.3g} deg.", capital(end_in_words(record.end)),
       with_error(record.end_time, record.end == DriveEnd::time_is_up ? std::nullopt : errors.end_time),
       with_error(end.travelled, record.end == DriveEnd::arrived && errors.end_time ? std::nullopt : errors.travelled),
       end.longitudinal_incline / degree));
@@ -269,7 +269,7 @@ Table errors_table(const DriveErrors& errors) {
   for (const MovedDrive& drive : errors.moved) {
     const auto cell = [&](const MovedDrive::Side& side) -> std::string {
       if (!drive.was_moved(side)) return "lies on its bound";
-      if (!side.record) return in_words(side);
+      if (!side.record) return moved_in_words(side);
       return fmt::format("{}, {:.3g} m, {:.3g} s", word_of(side.record->end), side.record->samples.back().travelled,
                          side.record->end_time);
     };
@@ -375,7 +375,7 @@ const DriveColumns<DriveSample>& sample_columns() {
   return all;
 }
 
-Json side_json(const MovedDrive& drive, const MovedDrive::Side& side) {
+Json moved_side_json(const MovedDrive& drive, const MovedDrive::Side& side) {
   if (!drive.was_moved(side)) return nullptr;
   Json json = {{"value", side.value}};
   json["end"] = side.record ? Json(std::string(word_of(side.record->end))) : Json(nullptr);
@@ -391,13 +391,13 @@ Json errors_json(const DriveErrors& errors) {
                     {"parameter", drive.parameter},
                     {"value", drive.of.value},
                     {"std_error", drive.of.std_error},
-                    {"lower", side_json(drive, drive.lower)},
-                    {"higher", side_json(drive, drive.higher)}});
+                    {"lower", moved_side_json(drive, drive.lower)},
+                    {"higher", moved_side_json(drive, drive.higher)}});
   return rows;
 }
 
 /// soilbin-drive/1
-Json to_json(const AnalyticDrive& part) {
+Json drive_json(const AnalyticDrive& part) {
   const bekker_wong::DriveRecord& record = part.record;
   const DriveSample& end = record.samples.back();
   Json document = {{"format", "soilbin-drive/1"},
@@ -466,7 +466,7 @@ std::string sentence_of(const DriveSide& side) {
   return text + steady_words(*side.steady) + (why.empty() ? "." : fmt::format(" ({}).", why));
 }
 
-std::vector<std::string> in_words(const DriveSides& drive) {
+std::vector<std::string> sentences_of(const DriveSides& drive) {
   std::vector<std::string> sentences;
   for (const DriveSide& side : drive.sides) sentences.push_back(sentence_of(side));
   if (drive.over_packings) sentences.push_back(sentence_of(*drive.over_packings));
@@ -576,7 +576,7 @@ Json steady_json(const dem::SteadyDrive& steady) {
           {"drift", steady.drift}};
 }
 
-Json side_json(const DriveSide& side) {
+Json drive_side_json(const DriveSide& side) {
   const DriveSideSample& end = side.samples.back();
   Json row = {{"model", side.packing ? "dem" : side.label}};
   if (side.packing) row["packing"] = *side.packing;
@@ -679,13 +679,13 @@ Sheet drive_sheet(const DriveSides& drive) {
 }
 
 /// soilbin-drive-sides/1
-Json to_json(const DriveSides& drive) {
+Json drive_json(const DriveSides& drive) {
   Json document = {{"format", "soilbin-drive-sides/1"},
                    {"case", drive.question.name},
                    {"tire", drive.question.scenario.tire.name},
                    {"soil", drive.question.scenario.soil.name}};
   document["sides"] = Json::array();
-  for (const DriveSide& side : drive.sides) document["sides"].push_back(side_json(side));
+  for (const DriveSide& side : drive.sides) document["sides"].push_back(drive_side_json(side));
   if (drive.over_packings) document["over_packings"] = over_packings_json(*drive.over_packings);
   document["differences"] = Json::array();
   for (const DriveDifference& row : drive.differences)
@@ -710,15 +710,15 @@ std::string drive_csv(const DriveSides& drive) {
 Report report_on(const AnalyticDrive& drive) {
   Report report{drive.question.name, drive.question.description, heading_of(drive.question)};
   report.add(samples_table(drive.record), Told::on_terminals);
-  report.add(Sentences(in_words(drive)));
+  report.add(Sentences(sentences_of(drive)));
   report.add(
       "Against time",
-      Figure{drive_sheet(drive),
+      Figure{[&drive] { return drive_sheet(drive); },
              "The soil in contact has seen the slip of the last quarter turn or so: it lags behind the speeds."});
   if (!drive.errors.moved.empty()) report.add("How sure", errors_table(drive.errors));
   report.add("Where the work went", energy_table(drive.record.samples.back().energy));
   if (!drive.record.happenings.empty()) report.add("On the way", happenings_table(drive.record.happenings));
-  report.data = [&drive] { return to_json(drive); };
+  report.data = [&drive] { return drive_json(drive); };
   report.csv = [&drive] { return drive_csv(drive); };
   report.sheet = [&drive] { return drive_sheet(drive); };
   return report;
@@ -727,9 +727,9 @@ Report report_on(const AnalyticDrive& drive) {
 Report report_on(const DriveSides& drive) {
   Report report{drive.question.name, drive.question.description, heading_of(drive.question)};
   report.add(samples_table(drive), Told::on_terminals);
-  report.add(Sentences(in_words(drive)));
+  report.add(Sentences(sentences_of(drive)));
   report.add("Against time",
-             Figure{drive_sheet(drive),
+             Figure{[&drive] { return drive_sheet(drive); },
                     "Instants of the analytic wheel; of grains means since the sample before. Dashed: "
                     "mean of the grains where way and motor no longer change, with its standard error."});
   if (!drive.differences.empty()) report.add("Steady state", differences_table(drive));
@@ -737,7 +737,7 @@ Report report_on(const DriveSides& drive) {
   report.add("Where the motor's work went", work_table(drive));
   report.add("On the way", happenings_table(drive));
   report.notes = drive.notes;
-  report.data = [&drive] { return to_json(drive); };
+  report.data = [&drive] { return drive_json(drive); };
   report.csv = [&drive] { return drive_csv(drive); };
   report.sheet = [&drive] { return drive_sheet(drive); };
   return report;

@@ -170,7 +170,7 @@ std::vector<std::string> apart_in_words(const MeasuredPlatesFit& fit) {
 }
 
 /// soilbin-plates/1
-Json to_json(const MeasuredPlatesFit& fit, std::size_t tests) {
+Json plates_json(const MeasuredPlatesFit& fit, std::size_t tests) {
   Json document = {{"format", "soilbin-plates/1"}, {"tests", tests}};
   for (const auto& [p, value] : plate_values(fit)) {
     document[p.name] = estimate_json(value.estimate);
@@ -260,8 +260,8 @@ Report report_on(const MeasuredPlatesFit& fit, std::span<const MeasuredPlate> pl
                             fit.highest / 1e3)};
   report.add("Values", values_table(fit));
   report.add(Sentences(words_on_errors(fit)));
-  report.add("Pressure over sinkage",
-             Figure{plates_sheet(plates, fit, file), "Points: readings; lines: Bekker's form."});
+  report.add("Pressure over sinkage", Figure{[&fit, plates, file] { return plates_sheet(plates, fit, file); },
+                                             "Points: readings; lines: Bekker's form."});
   report.add("Plate by plate", plates_table(fit));
   report.add(
       Sentences({fmt::format("b is a round plate's radius, a strip's width. Bekker's form misses the pressures by "
@@ -274,7 +274,7 @@ Report report_on(const MeasuredPlatesFit& fit, std::span<const MeasuredPlate> pl
                                 number((*fit.kept)[0]), number((*fit.kept)[1] / 1e3), number((*fit.kept)[2] / 1e3)));
   if (!aside.empty()) report.add("Set aside", Sentences(aside));
   report.add("For a soil file", Code{yaml_lines(fit, "soilbin plates " + file)});
-  report.data = [&fit, tests = plates.size()] { return to_json(fit, tests); };
+  report.data = [&fit, tests = plates.size()] { return plates_json(fit, tests); };
   report.sheet = [&fit, plates, file] { return plates_sheet(plates, fit, file); };
   return report;
 }

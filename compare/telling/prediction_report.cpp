@@ -68,8 +68,10 @@ Report report_on(const Prediction& prediction, const Campaign& campaign, const S
   Report report{campaign.name, "A measured campaign beside the model's prediction; nothing is fitted.",
                 fmt::format("{}: {} runs of {}, predicted with {}\n{}", campaign.name, prediction.runs.size(),
                             in_words(campaign.wheel), soil_from, errors_in_words(asked))};
-  report.add("Over slip", Figure{campaign_sheet(campaign, prediction), "Points: measured; lines: predicted."});
-  report.add("Predicted against measured", Figure{scatter_sheet(campaign, prediction), "On the line both agree."});
+  report.add("Over slip",
+             Figure{[&] { return campaign_sheet(campaign, prediction); }, "Points: measured; lines: predicted."});
+  report.add("Predicted against measured",
+             Figure{[&] { return scatter_sheet(campaign, prediction); }, "On the line both agree."});
   report.add("Run by run", runs_table(prediction));
   std::vector<std::string> unsolved;
   for (const PredictedRun& run : prediction.runs)

@@ -88,7 +88,7 @@ NamedValues facts_of(const dem::DrawnWheel& wheel) {
            {"volume", fmt::format("{:.4g} cm^3 within the outer surface", 1e6 * wheel.volume)}}};
 }
 
-nlohmann::ordered_json to_json(const dem::DrawnWheel& wheel, const std::string& file) {
+nlohmann::ordered_json mesh_json(const dem::DrawnWheel& wheel, const std::string& file) {
   const dem::MeshMends& mends = wheel.mends;
   return {{"format", "soilbin-mesh/1"},
           {"file", file},
@@ -141,8 +141,8 @@ Report report_on(const dem::DrawnWheel& wheel, const std::string& file) {
   for (const std::string& change : wheel.changes) changes.push_back({"changed", change});
   if (changes.empty()) changes.push_back({"", "Nothing had to be changed."});
   report.add(Sentences(changes));
-  report.add("Seen", Figure{wheel_sheet(wheel, file), ""});
-  report.data = [&wheel, file] { return to_json(wheel, file); };
+  report.add("Seen", Figure{[&wheel, file] { return wheel_sheet(wheel, file); }, ""});
+  report.data = [&wheel, file] { return mesh_json(wheel, file); };
   report.sheet = [&wheel, file] { return wheel_sheet(wheel, file); };
   return report;
 }

@@ -7,9 +7,9 @@
 
 #include "compare/comparison_fixture.hpp"
 #include "compare/discrepancy/causes.hpp"
-#include "compare/discrepancy/comparison_sheets.hpp"
-#include "compare/discrepancy/comparison_tables.hpp"
-#include "compare/discrepancy/summary.hpp"
+#include "compare/telling/comparison_sheets.hpp"
+#include "compare/telling/comparison_tables.hpp"
+#include "compare/telling/comparison_words.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

@@ -14,7 +14,6 @@ namespace soilbin::compare {
 namespace {
 
 using Eigen::VectorXd;
-using testing::HasSubstr;
 
 /// Difference = 0.02 + 0.10 (load/8 kN)^2 + 0.12 (angle/20 deg) + 0.10 lugs/20 mm, less 0.02 slip: 10 % is crossed,
 /// with no lugs, at (load/8 kN)^2 + 1.2 angle/20 deg = 0.8 (slip 0).
@@ -56,8 +55,7 @@ TEST(SlowFailureMap, ItsClauseHoldsEverywhereInTheBoxAndRestsOnRows) {
   FailureMap map = map_failures(q);
   const std::optional<AgreementClause> clause = agreement(q, map, without_lugs);
   ASSERT_TRUE(clause);
-  EXPECT_THAT(clause->text, HasSubstr("longitudinal incline: within 10 % of the load up to load"));
-  EXPECT_THAT(clause->text, HasSubstr("at lug height 0 mm"));
+  EXPECT_EQ(clause->roles[1], Role::held) << "the lugs' height, at its lower bound";
   // The corner, at the worst slip, agrees; and it isn't timid: the box reaches most of the way to the boundary.
   const VectorXd corner = (VectorXd(4) << clause->upper[0], 0, clause->upper[2], 0).finished();
   EXPECT_LE(formula(corner), 0.10);
@@ -65,7 +63,6 @@ TEST(SlowFailureMap, ItsClauseHoldsEverywhereInTheBoxAndRestsOnRows) {
   EXPECT_GE(clause->rows, 1);
   ASSERT_TRUE(clause->witness);
   EXPECT_LE(clause->largest, 0.11);
-  RecordProperty("clause", clause->text);
 }
 
 TEST(SlowFailureMap, SaysNothingWhereModelsNeverAgree) {
@@ -86,7 +83,6 @@ TEST(SlowFailureMap, ABoxWithTwoEndsWhereTheCornerDisagrees) {
   EXPECT_FALSE(agreement(q, map, without_lugs));
   const auto clause = agreement(q, map, std::vector<Role>(4, Role::bounded), 9, 0);
   ASSERT_TRUE(clause);
-  EXPECT_THAT(clause->text, HasSubstr("within 10 % of the load with load from "));
   EXPECT_GE(clause->lower[0], 2690);
   EXPECT_LE(clause->upper[0], 7310);
   EXPECT_GT(clause->upper[0] - clause->lower[0], 0.7 * (7310 - 2690));  // nodes are 875 N apart

@@ -8,7 +8,8 @@
 #include <filesystem>
 
 #include "compare/comparison_fixture.hpp"
-#include "compare/failure_map/map_report.hpp"
+#include "compare/report/json_fields.hpp"
+#include "compare/telling/failure_map_report.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 
@@ -173,26 +174,25 @@ TEST_F(SlowInclineMap, SaysWhichCoordinatesCollapseTheData) {
 
 TEST_F(SlowInclineMap, TellsItInWordsAsAPageAndAsJson) {
   const FailureMapResult& result = learnt().result;
-  const std::vector<std::string> words = map_summary(result);
-  EXPECT_THAT(words.front(),
-              AllOf(StartsWith("longitudinal incline: "), HasSubstr("conditions run differ by more than")));
-  EXPECT_THAT(words.front(), HasSubstr("too low at all of them"));
-  const std::string page = failure_map_page(result, {"Map", "soilbin failure-map made", {}}, "format: ...");
+  const Report report = report_on(result, {"Map", "format: ..."});
+  const Json json = report.data();
+  EXPECT_EQ(json["format"], "soilbin-failure-map/1");
+  EXPECT_EQ(json["rows"].size(), result.rows.rows.size());
+  EXPECT_EQ(json["checks"].size(), 4U);
+  EXPECT_NEAR(json["cross_validated_error"].get<double>(), result.rows.held_out.rms(), 1e-15);
+  EXPECT_THAT(json["summary"][0].get<std::string>(),
+              AllOf(StartsWith("longitudinal incline: "), HasSubstr("conditions run differ by more than"),
+                    HasSubstr("too low at all of them")));
+  EXPECT_THAT(json["summary"][1].get<std::string>(), HasSubstr("% of the range"));
+  const std::string page = page_of(report, {"", "soilbin failure-map made", {}});
   const std::size_t answer = page.find("id=\"answer\"");  // the words stand after the map
   ASSERT_NE(answer, std::string::npos);
   for (const char* part : {"The error exceeds", "Cross-validated error of the map", "fresh conditions:"})
     EXPECT_NE(page.find(part, answer), std::string::npos) << part;
   EXPECT_THAT(page, HasSubstr("Where may I trust the quick estimate?"));
   EXPECT_LT(page.find("sliding-map"), page.find("Cross-validated error of the map"));
-  EXPECT_THAT(words[1], HasSubstr("% of the range"));
   EXPECT_THAT(page, HasSubstr("class=\"plot heat\""));
   EXPECT_THAT(page, HasSubstr("soilbin failure-map made"));
-  const auto json = failure_map_json(result);
-  EXPECT_EQ(json["format"], "soilbin-failure-map/1");
-  EXPECT_EQ(json["rows"].size(), result.rows.rows.size());
-  EXPECT_NEAR(json["cross_validated_error"].get<double>(), result.rows.held_out.rms(), 1e-15);
-  EXPECT_EQ(rows_table(result).rows.size(), result.rows.rows.size());
-  EXPECT_EQ(checks_table(result).rows.size(), 4U);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "compare/recorded/recorded_model.hpp"
-#include "compare/reproduction/reproduction_report.hpp"
+#include "compare/telling/reproduction_report.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

@@ -1,4 +1,4 @@
-#include "compare/discrepancy/comparison_tables.hpp"
+#include "compare/telling/comparison_tables.hpp"
 
 #include <fmt/core.h>
 #include <fmt/format.h>
@@ -8,9 +8,9 @@
 #include <map>
 
 #include "compare/discrepancy/causes.hpp"
-#include "compare/discrepancy/summary.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/comparison_words.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -10,12 +10,17 @@
 
 namespace soilbin::compare {
 
-/// A sentence and what stands behind it.
+/// What a sentence rests on beside rows.
+enum class ClauseEvidence { rule, joint_test, budget, loop, points, warnings };
+/// "rule", "joint test", "the loop": as links and JSON name it.
+const char* word(ClauseEvidence evidence);
+
+/// A sentence and what it rests on.
 struct Clause {
-  std::string about;                    ///< "drawbar pull"; "" for what concerns all
-  std::string text;                     ///< whole sentences
-  std::vector<std::string> evidence{};  ///< what is not a row: "joint test", "budget", "the loop"
-  std::vector<std::size_t> rows{};      ///< of Comparison::differences
+  std::string about;  ///< "drawbar pull"; "" for what concerns all
+  std::string text;   ///< whole sentences
+  std::vector<ClauseEvidence> evidence{};
+  std::vector<std::size_t> rows{};  ///< of Comparison::differences
 };
 
 /// Calls the sides in words, in all that speaks of them, for pages and documents; gives the labels that they had.

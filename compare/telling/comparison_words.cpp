@@ -1,8 +1,9 @@
-#include "compare/discrepancy/summary.hpp"
+#include "compare/telling/comparison_words.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -84,7 +85,7 @@ constexpr double joint_level = 0.01;  // p below which more is left than noise
 
 Clause joint_clause(const Comparison& comparison, const JointTest& test) {
   const std::string side = comparison.sides[test.side].label, reference = comparison.sides[test.reference].label;
-  Clause clause{"All together", "", {"joint test"}};
+  Clause clause{"All together", "", {ClauseEvidence::joint_test}};
   const std::string p = test.p_value < 1e-300 ? "p < 1e-300" : fmt::format("p = {:.2g}", test.p_value);
   const std::string errors =
       std::isinf(test.freedom) ? "" : fmt::format("; noise with {:.0f} degrees of freedom", test.freedom);
@@ -112,7 +113,7 @@ std::optional<Clause> soil_clause(const Comparison& comparison) {
                             none_left  ? "The rest is noise"
                             : all_left ? "The rest is significant"
                                        : "The rest is significant for some sides and noise for others"),
-                {"joint test"}};
+                {ClauseEvidence::joint_test}};
 }
 
 /// What the size of the grains does to their own pull, where the study of it tells; nothing where that is little.
@@ -143,7 +144,7 @@ std::optional<Clause> grains_clause(const Comparison& comparison) {
                   "load (RMS of {} of {} points; the others are not studied).",
                   1000 * mean_diameter(*scenario.soil.granular), sum > 0 ? "large" : "small", number(rms, 100), known,
                   with_result),
-      {"warnings"}};
+      {ClauseEvidence::warnings}};
 }
 
 /// The rule, and how many rows it would let pass by chance.
@@ -161,7 +162,7 @@ Clause chance_clause(const Comparison& comparison) {
           fmt::format("A difference is significant above two standard errors of both sides together and above the "
                       "scatter of one run.{} By chance about {:.0f} of {} rows exceed two standard errors.",
                       student, std::ceil(chance_level * static_cast<double>(counted)), counted),
-          {"rule"}};
+          {ClauseEvidence::rule}};
 }
 
 /// Each doubt once, with how many points share it.
@@ -181,12 +182,17 @@ std::vector<Clause> doubt_clauses(const Comparison& comparison) {
     clauses.push_back({"Limits",
                        fmt::format("{}: warnings at {} of {} points ({}{}).", side.label, doubted, with_result, first,
                                    doubts.size() > 1 ? fmt::format("; {} more in the table", doubts.size() - 1) : ""),
-                       {"table of points"}});
+                       {ClauseEvidence::points}});
   }
   return clauses;
 }
 
 }  // namespace
+
+const char* word(ClauseEvidence evidence) {
+  constexpr std::array words = {"rule", "joint test", "budget", "the loop", "table of points", "warnings"};
+  return words[static_cast<std::size_t>(evidence)];
+}
 
 std::string measure_of(const Tally& t) {
   const ChannelView& channel = channel_views[t.channel];
@@ -207,7 +213,7 @@ std::vector<Clause> cause_clauses(const Comparison& comparison) {
                      in_words(comparison.question.study.conditions[worst.condition]), comparison.sides[t.side].label,
                      comparison.sides[t.reference].label, in_unit(t.channel, std::abs(worst.difference)),
                      part_in_words(part->name), number(part->side), number(part->reference)),
-         {"budget"},
+         {ClauseEvidence::budget},
          {t.worst}});
   }
   return clauses;
@@ -281,7 +287,7 @@ std::vector<Clause> opening(const Comparison& comparison) {
 std::vector<Clause> missing_clauses(const LoopAnswer& loop, const std::vector<std::string>& mistaken_columns) {
   std::vector<Clause> clauses;
   for (const BackedSentence& said : headline(loop, mistaken_columns))
-    clauses.push_back({said.about, said.text + (said.detail.empty() ? "" : " " + said.detail), {"the loop"}});
+    clauses.push_back({said.about, said.text + (said.detail.empty() ? "" : " " + said.detail), {ClauseEvidence::loop}});
   return clauses;
 }
 
@@ -303,7 +309,7 @@ std::vector<Clause> summary(const Comparison& comparison, const LoopAnswer* loop
   if (loop != nullptr) {
     std::string text = verdict_sentence(*loop);
     for (const std::string& sentence : explanation(*loop)) text += " " + sentence;
-    clauses.push_back({"what is missing", text, {"the loop"}});
+    clauses.push_back({"what is missing", text, {ClauseEvidence::loop}});
   }
   for (Clause& clause : limits_of_the_comparison(comparison)) clauses.push_back(std::move(clause));
   return clauses;

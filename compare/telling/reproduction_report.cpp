@@ -1,4 +1,4 @@
-#include "compare/reproduction/reproduction_report.hpp"
+#include "compare/telling/reproduction_report.hpp"
 
 #include <fmt/core.h>
 
@@ -7,7 +7,6 @@
 
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/report/page.hpp"
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
@@ -150,28 +149,6 @@ Sheet finding_sheet(const ReproducedFinding& row, const std::vector<std::string>
   return sheet;
 }
 
-std::string claim(const Finding& finding, double scale, const std::string& unit);
-
-/// A finding's words, figure and intervals.
-void add_finding(Page& page, const ReproducedFinding& row, const std::vector<std::string>& labels) {
-  const Finding& finding = row.finding;
-  page.paragraph("\u201c" + finding.quote + "\u201d");
-  const auto [scale, unit] = shown_in(finding);
-  const std::string claimed = claim(finding, scale, unit);
-  const Sheet sheet = finding_sheet(row, labels);
-  if (!sheet.plots.empty())
-    page.figure(sheet, claimed + (finding.compares() ? ". Dashed: what it is held against." : "."));
-  Table table{sheet.plots.empty() ? claimed : "", {"answers of", "verdict"}, {true, true, true}};
-  const bool missing = std::ranges::any_of(row.evidence, [](const Evidence& e) { return !e.missing.empty(); });
-  if (missing) table.header.emplace_back("conditions missing");
-  for (std::size_t k = 0; k < row.evidence.size(); ++k) {
-    table.add({labels[k], cell(finding, row.evidence[k])});
-    if (missing) table.rows.back().emplace_back(missing_in_words(row.evidence[k]));
-  }
-  page.table(table);
-  if (!finding.chosen.empty()) page.paragraph("Chosen here: " + finding.chosen);
-}
-
 std::string claim(const Finding& finding, double scale, const std::string& unit) {
   std::string words =
       fmt::format("{} of {} along {}, {}", spaced(word_of(finding.test)), spaced(word_of(finding.quantity)),
@@ -188,21 +165,34 @@ std::string claim(const Finding& finding, double scale, const std::string& unit)
   return words;
 }
 
+/// A finding's words, figure and intervals.
+std::vector<ReportPart> parts_of(const ReproducedFinding& row, const std::vector<std::string>& labels) {
+  const Finding& finding = row.finding;
+  const auto [scale, unit] = shown_in(finding);
+  const std::string claimed = claim(finding, scale, unit);
+  Sheet sheet = finding_sheet(row, labels);
+  Table table{sheet.plots.empty() ? claimed : "", {"answers of", "verdict"}, {true, true, true}};
+  const bool missing = std::ranges::any_of(row.evidence, [](const Evidence& e) { return !e.missing.empty(); });
+  if (missing) table.header.emplace_back("conditions missing");
+  for (std::size_t k = 0; k < row.evidence.size(); ++k) {
+    table.add({labels[k], cell(finding, row.evidence[k])});
+    if (missing) table.rows.back().emplace_back(missing_in_words(row.evidence[k]));
+  }
+  std::vector<ReportPart> parts = {{Prose{{"\u201c" + finding.quote + "\u201d"}}}};
+  parts.push_back(
+      {Figure(std::move(sheet), claimed + (finding.compares() ? ". Dashed: what it is held against." : "."))});
+  parts.push_back({std::move(table)});
+  if (!finding.chosen.empty()) parts.push_back({Prose{{"Chosen here: " + finding.chosen}}});
+  return parts;
+}
+
 }  // namespace
 
 std::string claim_in_words(const Finding& finding) { return claim(finding, per_si(finding), unit_of(finding)); }
 
-std::string tally(const Reproduction& reproduction, std::size_t label) {
-  std::string words;
-  for (const Word<FindingVerdict>& verdict : words_of(std::type_identity<FindingVerdict>{})) {
-    const auto count = std::ranges::count_if(
-        reproduction.rows, [&](const auto& row) { return row.evidence[label].verdict == verdict.value; });
-    words += fmt::format("{}{} {}", words.empty() ? "" : ", ", count, verdict.text);
-  }
-  return words;
-}
+namespace {
 
-nlohmann::ordered_json to_json(const Reproduction& reproduction) {
+Json reproduction_json(const Reproduction& reproduction) {
   Json document = {{"format", "soilbin-reproduction/1"},
                    {"findings", reproduction.findings.name},
                    {"level", reproduction.findings.level},
@@ -236,7 +226,9 @@ nlohmann::ordered_json to_json(const Reproduction& reproduction) {
   return document;
 }
 
-std::vector<std::pair<std::string, std::string>> opening(const Reproduction& reproduction) {
+/// Of each label how many findings it shows, contradicts and leaves open, then the findings that every model with data
+/// contradicts.
+std::vector<std::pair<std::string, std::string>> conclusions(const Reproduction& reproduction) {
   const std::vector<ReproducedFinding>& rows = reproduction.rows;
   std::vector<std::pair<std::string, std::string>> sentences;
   for (std::size_t k = 0; k < reproduction.labels.size(); ++k) {
@@ -266,6 +258,7 @@ std::vector<std::pair<std::string, std::string>> opening(const Reproduction& rep
   return sentences;
 }
 
+/// "The analytic wheel shows 37 of 48 findings (2 contradicted), grains 20 of 31 findings (1 contradicted)."
 std::string conclusion(const Reproduction& reproduction) {
   std::string text;
   for (std::size_t k = 0; k < reproduction.labels.size(); ++k) {
@@ -284,6 +277,8 @@ std::string conclusion(const Reproduction& reproduction) {
   return text.empty() ? text : text + ".";
 }
 
+/// Findings against models: shown, contradicted, open, or "-" where a model has no data; each cell leads to the
+/// finding's figure.
 Table findings_matrix(const Reproduction& reproduction) {
   MarkedTable table{
       fmt::format("Shown: the whole {:.0f} % interval lies in what is claimed. Contradicted: no part of it does. Open: "
@@ -301,28 +296,31 @@ Table findings_matrix(const Reproduction& reproduction) {
   return table;
 }
 
-std::string reproduction_page(const Reproduction& reproduction, const PageAbout& about) {
-  Page page(about.title, reproduction.findings.source);
-  if (const std::string sentence = conclusion(reproduction); !sentence.empty()) page.sentences({sentence});
-  page.section("Findings against models", "matrix");
-  page.table(findings_matrix(reproduction));
-  page.section("How it is judged", "method");
-  page.paragraph(
-      fmt::format("Each finding is a statistic with its {:.0f} % interval. The analytic model's answers are taken as "
-                  "exact: an interval of one value.",
-                  100 * reproduction.findings.level));
-  page.list(reproduction.remarks);
-  page.doubts(about.doubts);
-  page.section("Each finding: words, figure, intervals", "findings");
+}  // namespace
+
+Report report_on(const Reproduction& reproduction) {
+  Report report{"What of " + reproduction.findings.name + " is reproduced", reproduction.findings.source,
+                reproduction.findings.source};
+  if (const std::string sentence = conclusion(reproduction); !sentence.empty())
+    report.add(Sentences(std::vector{sentence}), Told::on_pages);
+  report.add(Sentences(conclusions(reproduction)), Told::on_terminals);
+  report.add("Findings against models", findings_matrix(reproduction), Told::everywhere, "matrix");
+  report.add(
+      "How it is judged",
+      Prose{{fmt::format("Each finding is a statistic with its {:.0f} % interval. The analytic model's answers are "
+                         "taken as exact: an interval of one value.",
+                         100 * reproduction.findings.level)}},
+      Told::on_pages, "method");
+  report.add(Items{reproduction.remarks});
+  report.add(WarningsHere());
+  report.add("Each finding: words, figure, intervals", Prose{}, Told::on_pages, "findings");
   std::vector<std::string> names;
   for (const std::string& label : reproduction.labels) names.push_back(model_in_words(label));
   for (const ReproducedFinding& row : reproduction.rows)
-    page.folded(
-        fmt::format("{}: {}", row.finding.section, title_of(row.finding)), [&] { add_finding(page, row, names); },
-        finding_anchor(row.finding.id));
-  page.section("How this page was made", "repeat");
-  page.code(about.command);
-  return page.html();
+    report.add(Fold{fmt::format("{}: {}", row.finding.section, title_of(row.finding)),
+                    [&row, names] { return parts_of(row, names); }, finding_anchor(row.finding.id)});
+  report.data = [&reproduction] { return reproduction_json(reproduction); };
+  return report;
 }
 
 }  // namespace soilbin::compare

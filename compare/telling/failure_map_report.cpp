@@ -1,4 +1,4 @@
-#include "compare/failure_map/map_report.hpp"
+#include "compare/telling/failure_map_report.hpp"
 
 #include <fmt/core.h>
 
@@ -27,6 +27,36 @@ std::string factors_in_words(const std::vector<Factor>& factors, const VectorXd&
                         unit_behind(factor.unit));
   }
   return text;
+}
+
+std::string bare(const Factor& factor, double value) { return fmt::format("{:.3g}", value * per_unit(factor.unit)); }
+
+std::string with_unit(const Factor& factor, double value) { return bare(factor, value) + unit_behind(factor.unit); }
+
+/// "load up to 4 kN", "load from 3 kN", "load from 3 to 4 kN"; empty where the box has the whole range.
+std::string range_of(const Factor& factor, double lower, double upper) {
+  const bool from = lower > factor.lower, to = upper < factor.upper;
+  if (from && to) return fmt::format("{} from {} to {}", factor.name, bare(factor, lower), with_unit(factor, upper));
+  if (from) return fmt::format("{} from {}", factor.name, with_unit(factor, lower));
+  return to ? fmt::format("{} up to {}", factor.name, with_unit(factor, upper)) : "";
+}
+
+/// "up to load 4 kN, at lug height 0 mm, with slip from 20 %; 12 conditions run there, largest error 6.1 %".
+std::string box_in_words(const FailureQuestion& question, const AgreementClause& clause) {
+  const std::vector<Role>& roles = clause.roles;
+  std::string limits, held, ranges;
+  for (std::size_t j = 0; j < roles.size(); ++j) {
+    const Factor& factor = question.factors[j];
+    if (roles[j] == Role::limited)
+      limits +=
+          fmt::format("{}{} {}", limits.empty() ? "up to " : " and ", factor.name, with_unit(factor, clause.upper[j]));
+    if (roles[j] == Role::held) held += fmt::format(", at {} {}", factor.name, with_unit(factor, factor.lower));
+    if (roles[j] == Role::bounded)
+      if (const std::string range = range_of(factor, clause.lower[j], clause.upper[j]); !range.empty())
+        ranges += (ranges.empty() ? (limits.empty() ? "with " : " with ") : ", ") + range;
+  }
+  return fmt::format("{}{}{}; {} conditions run there, largest error {:.1f} %", limits, held, ranges, clause.rows,
+                     100 * clause.largest);
 }
 
 std::string in_percent(const Estimate& share) { return number({100 * share.value, 100 * share.std_error}); }
@@ -188,6 +218,32 @@ HeatCell cell_at(const FailureMapResult& result, const VectorXd& values) {
   return cell;
 }
 
+/// Difference [% of the load] over load (across) and angle (up), by the map, at these lug height [m] and slip; cells
+/// count where the map is sure, with one-sided confidence 95 %, that the tolerance is passed.
+HeatMap heat_map_of(const FailureMapResult& result, double lug_height, double slip) {
+  const std::vector<Factor>& factors = result.question.factors;
+  const Factor &load = factors[map_load], &angle = factors[map_angle];
+  HeatMap map;
+  map.title = fmt::format("{} {}, {} {}", factors[map_lug_height].name, in_units(factors[map_lug_height], lug_height),
+                          factors[map_slip].name, in_units(factors[map_slip], slip));
+  map.subtitle = "analytic less grains [% of the load]";
+  map.x_title = heading(load.name, load.unit), map.y_title = heading(angle.name, angle.unit);
+  map.limit = 300 * result.question.tolerance;
+  for (int c = 0; c < cells; ++c)
+    map.x.push_back(fmt::format("{:.4g}", level_value(load, c, cells) * per_unit(load.unit)));
+  for (int r = cells - 1; r >= 0; --r) {
+    map.y.push_back(in_units(angle, level_value(angle, r, cells)));
+    std::vector<HeatCell> row;
+    for (int c = 0; c < cells; ++c) {
+      VectorXd values(4);
+      values << level_value(load, c, cells), lug_height, level_value(angle, r, cells), slip;
+      row.push_back(cell_at(result, values));
+    }
+    map.cells.push_back(std::move(row));
+  }
+  return map;
+}
+
 std::vector<double> two_levels(const Factor& factor) {
   return factor.upper > factor.lower ? std::vector{factor.lower, factor.upper} : std::vector{factor.lower};
 }
@@ -234,13 +290,15 @@ SlidingMap sliding_map_of(const FailureMapResult& result) {
   return map;
 }
 
-}  // namespace
-
+/// Sentences, the most important first: how much of the box disagrees and to which side, where the models agree, how
+/// well the map knows, what dimensionless groups do, what fresh conditions showed.
 std::vector<std::string> map_summary(const FailureMapResult& result) {
   std::vector<std::string> text = {rows_sentence(result)};
   text.push_back(fmt::format("The error exceeds {:.3g} % of the load in {:.0f} % of the range.",
                              100 * result.question.tolerance, 100 * share_beyond(result)));
-  for (const AgreementClause& clause : result.clauses) text.push_back(clause.text + ".");
+  for (const AgreementClause& clause : result.clauses)
+    text.push_back(fmt::format("{}: within {:.3g} % of the load {}.", result.question.name,
+                               100 * result.question.tolerance, box_in_words(result.question, clause)));
   if (result.clauses.empty()) text.push_back("No part of the range is within the tolerance with 95 % confidence.");
   text.push_back(knowledge_sentence(result));
   for (const std::string& more : {coordinates_sentence(result), checks_sentence(result)})
@@ -248,15 +306,13 @@ std::vector<std::string> map_summary(const FailureMapResult& result) {
   return text;
 }
 
-std::vector<std::pair<std::string, std::string>> opening(const FailureMapResult& result) {
+/// Where the quick estimate may be trusted; where not and to which side it errs; how sure that is.
+std::vector<std::pair<std::string, std::string>> trust_in_words(const FailureMapResult& result) {
   const double tolerance = 100 * result.question.tolerance;
   std::vector<std::pair<std::string, std::string>> parts;
-  // A clause's text is "NAME: within 10 % of the load up to ...": what follows the load is the box.
-  const std::string before = fmt::format("{}: within {:.3g} % of the load ", result.question.name, tolerance);
   std::string boxes;
   for (const AgreementClause& clause : result.clauses)
-    boxes += (boxes.empty() ? "" : " Also ") +
-             (clause.text.starts_with(before) ? clause.text.substr(before.size()) : clause.text) + ".";
+    boxes += (boxes.empty() ? "" : " Also ") + box_in_words(result.question, clause) + ".";
   parts.emplace_back(
       "Trust it",
       result.clauses.empty()
@@ -276,6 +332,7 @@ std::vector<std::pair<std::string, std::string>> opening(const FailureMapResult&
   return parts;
 }
 
+/// The answer in two lines, above the map.
 std::string in_short(const FailureMapResult& result) {
   const Tire& tire = result.map.scenario.tire;
   const double tolerance = 100 * result.question.tolerance;
@@ -289,6 +346,7 @@ std::string in_short(const FailureMapResult& result) {
           : "");
 }
 
+/// Scatter of the rows, whether ratios without units would serve better.
 std::vector<std::string> details(const FailureMapResult& result) {
   std::vector<std::string> text = {knowledge_sentence(result)};
   if (std::string groups = coordinates_in_words(result); !groups.empty()) text.push_back(std::move(groups));
@@ -339,72 +397,7 @@ Table checks_table(const FailureMapResult& result) {
   return table;
 }
 
-HeatMap heat_map_of(const FailureMapResult& result, double lug_height, double slip) {
-  const std::vector<Factor>& factors = result.question.factors;
-  const Factor &load = factors[map_load], &angle = factors[map_angle];
-  HeatMap map;
-  map.title = fmt::format("{} {}, {} {}", factors[map_lug_height].name, in_units(factors[map_lug_height], lug_height),
-                          factors[map_slip].name, in_units(factors[map_slip], slip));
-  map.subtitle = "analytic less grains [% of the load]";
-  map.x_title = heading(load.name, load.unit), map.y_title = heading(angle.name, angle.unit);
-  map.limit = 300 * result.question.tolerance;
-  for (int c = 0; c < cells; ++c)
-    map.x.push_back(fmt::format("{:.4g}", level_value(load, c, cells) * per_unit(load.unit)));
-  for (int r = cells - 1; r >= 0; --r) {
-    map.y.push_back(in_units(angle, level_value(angle, r, cells)));
-    std::vector<HeatCell> row;
-    for (int c = 0; c < cells; ++c) {
-      VectorXd values(4);
-      values << level_value(load, c, cells), lug_height, level_value(angle, r, cells), slip;
-      row.push_back(cell_at(result, values));
-    }
-    map.cells.push_back(std::move(row));
-  }
-  return map;
-}
-
-std::string failure_map_page(const FailureMapResult& result, const PageAbout& about, const std::string& resolved_case) {
-  Page page("Where may I trust the quick estimate?",
-            fmt::format("{}: the analytic wheel against grains, {} on {}", about.title, result.map.scenario.tire.name,
-                        in_words(result.map.scenario.soil)));
-  std::vector<std::string> first = {in_short(result)};
-  if (std::string grains = grains_sentence(result); !grains.empty()) first.push_back(std::move(grains));
-  page.sentences(first);
-  page.place("The map", "map");
-  page.raw(sliding_map_html(
-      sliding_map_of(result),
-      "Drawbar pull, analytic less grains, in per cent of the load, as the map has it; loads across, angles up. Blue: "
-      "the analytic pull is too low; orange: too high. Bold: the map is sure that the models differ by more than the "
-      "tolerance. Faint: they agree, or the map cannot tell; each cell says which."));
-  page.place("The answer in full", "answer");
-  page.summary(opening(result));
-  page.figures_at_a_glance(
-      {{std::to_string(result.rows.rows.size()), "conditions run"},
-       {fmt::format("{:.1f} %", 100 * result.rows.held_out.rms()), "cross-validated error, of the load"},
-       {fmt::format("{:.0f} %", 100 * share_beyond(result)), "of the range beyond the tolerance"}});
-  page.list(details(result));
-  page.doubts(about.doubts);
-  const std::vector<Factor>& factors = result.question.factors;
-  page.folded("The map at its corners, side by side", [&] {
-    std::vector<std::string> maps;
-    for (const double slip :
-         {factors[map_slip].lower, (factors[map_slip].lower + factors[map_slip].upper) / 2, factors[map_slip].upper})
-      for (const double height : two_levels(factors[map_lug_height]))
-        maps.push_back(heat_map_svg(heat_map_of(result, height, slip)));
-    page.heat_maps(maps, "Loads across, angles up.");
-  });
-  page.section("What it rests on", "rows");
-  page.folded(fmt::format("All {} conditions run", result.rows.rows.size()), [&] { page.table(rows_table(result)); });
-  page.folded("Other coordinates", [&] { page.table(coordinates_table(result)); });
-  if (!result.checks.empty()) page.folded("Checks on fresh conditions", [&] { page.table(checks_table(result)); });
-  page.section("How to repeat this", "repeat");
-  page.code(about.command);
-  page.facts({"part", ""}, {&about.versions});
-  page.folded("The resolved case", [&] { page.code(resolved_case); });
-  return page.html();
-}
-
-nlohmann::ordered_json failure_map_json(const FailureMapResult& result) {
+Json failure_map_json(const FailureMapResult& result) {
   const std::vector<Factor>& factors = result.question.factors;
   Json document = {
       {"format", "soilbin-failure-map/1"},      {"incline", name_of(result.map.incline)},
@@ -428,6 +421,63 @@ nlohmann::ordered_json failure_map_json(const FailureMapResult& result) {
   document["factors"] = ranges, document["rows"] = rows;
   document["coordinates"] = groups, document["checks"] = checks;
   return document;
+}
+
+/// The map at the corners of lug height and slip.
+std::vector<ReportPart> corners(const FailureMapResult& result) {
+  const std::vector<Factor>& factors = result.question.factors;
+  std::vector<std::string> maps;
+  for (const double slip :
+       {factors[map_slip].lower, (factors[map_slip].lower + factors[map_slip].upper) / 2, factors[map_slip].upper})
+    for (const double height : two_levels(factors[map_lug_height]))
+      maps.push_back(heat_map_svg(heat_map_of(result, height, slip)));
+  return {{Drawings{std::move(maps), "Loads across, angles up.", "", true}}};
+}
+
+}  // namespace
+
+Report report_on(const FailureMapResult& result, const FailureMapAbout& about) {
+  Report report{"Where may I trust the quick estimate?",
+                fmt::format("{}: the analytic wheel against grains, {} on {}", about.name,
+                            result.map.scenario.tire.name, in_words(result.map.scenario.soil))};
+  std::vector<std::string> first = {in_short(result)};
+  if (std::string grains = grains_sentence(result); !grains.empty()) first.push_back(std::move(grains));
+  report.add(Sentences(first), Told::on_pages);
+  report.parts.push_back(
+      {.content = Html{sliding_map_html(
+           sliding_map_of(result),
+           "Drawbar pull, analytic less grains, in per cent of the load, as the map has it; loads "
+           "across, angles up. Blue: the analytic pull is too low; orange: too high. Bold: the map is "
+           "sure that the models differ by more than the tolerance. Faint: they agree, or the map "
+           "cannot tell; each cell says which.")},
+       .told = Told::on_pages,
+       .section = "The map",
+       .anchor = "map",
+       .heading = ReportPart::Heading::place});
+  report.parts.push_back({.content = Sentences(trust_in_words(result)),
+                          .section = "The answer in full",
+                          .anchor = "answer",
+                          .heading = ReportPart::Heading::place});
+  report.add(
+      KeyFigures{{{std::to_string(result.rows.rows.size()), "conditions run"},
+                  {fmt::format("{:.1f} %", 100 * result.rows.held_out.rms()), "cross-validated error, of the load"},
+                  {fmt::format("{:.0f} %", 100 * share_beyond(result)), "of the range beyond the tolerance"}}});
+  report.add(Items{details(result)});
+  report.add(WarningsHere());
+  report.add(Fold{"The map at its corners, side by side", [&result] { return corners(result); }});
+  report.add("What it rests on", Prose{}, Told::on_pages, "rows");
+  report.add(Fold{fmt::format("All {} conditions run", result.rows.rows.size()),
+                  [&result] { return std::vector<ReportPart>{{rows_table(result)}}; }});
+  report.add(Fold{"Other coordinates", [&result] { return std::vector<ReportPart>{{coordinates_table(result)}}; }});
+  if (!result.checks.empty())
+    report.add(
+        Fold{"Checks on fresh conditions", [&result] { return std::vector<ReportPart>{{checks_table(result)}}; }});
+  if (about.show_rows) report.add(rows_table(result), Told::on_terminals);
+  report.add(coordinates_table(result), Told::on_terminals);
+  if (!result.checks.empty()) report.add(checks_table(result), Told::on_terminals);
+  report.resolved_case = about.resolved_case;
+  report.data = [&result] { return failure_map_json(result); };
+  return report;
 }
 
 }  // namespace soilbin::compare

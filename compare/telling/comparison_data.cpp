@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "compare/discrepancy/causes.hpp"
-#include "compare/discrepancy/comparison_page.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/measured/csv.hpp"
@@ -12,6 +11,8 @@
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/comparison_report.hpp"
+#include "compare/telling/comparison_words.hpp"
 #include "scenario/mapping_writer.hpp"
 
 namespace soilbin::compare {
@@ -87,12 +88,25 @@ std::string remarks_of(const Comparison& comparison, const Difference& d) {
 
 }  // namespace
 
+std::optional<LoopOfComparison> ask_loop(const Comparison& comparison, const LoopOptions& options) {
+  const Side& reference = comparison.sides.back();
+  if (reference.kind == SideKind::analytic) return std::nullopt;
+  const Campaign campaign = as_campaign(reference, comparison.question);
+  LoopOfComparison loop;
+  if (reference.kind == SideKind::measured) loop.mistaken_columns = doubts_before_fit(campaign).columns;
+  loop.answer = run_loop(campaign, options);
+  return loop;
+}
+
 Json comparison_json(const Comparison& comparison, const ComparisonAbout& about) {
   const Study& study = comparison.question.study;
   Json json = {{"format", "soilbin-compare/1"}, {"study", study.name}, {"summary", Json::array()}};
-  for (const Clause& clause : summary(comparison, about.loop ? &*about.loop : nullptr))
+  for (const Clause& clause : summary(comparison, about.loop ? &about.loop->answer : nullptr)) {
+    Json evidence = Json::array();
+    for (const ClauseEvidence one : clause.evidence) evidence.push_back(word(one));
     json["summary"].push_back(
-        {{"about", clause.about}, {"text", clause.text}, {"rows", clause.rows}, {"evidence", clause.evidence}});
+        {{"about", clause.about}, {"text", clause.text}, {"rows", clause.rows}, {"evidence", std::move(evidence)}});
+  }
   json["sides"] = json["rows"] = json["tallies"] = json["joint_tests"] = Json::array();
   for (const Side& side : comparison.sides) json["sides"].push_back(side_json(side, comparison.question));
   for (const Difference& d : comparison.differences) json["rows"].push_back(difference_json(comparison, d));
@@ -106,11 +120,10 @@ Json comparison_json(const Comparison& comparison, const ComparisonAbout& about)
                                    {"chi2_soil_exact", finite(test.chi2_soil_exact)},
                                    {"p_value", finite(test.p_value)},
                                    {"soil", test.soil}});
-  if (about.loop) json["loop"] = to_json(*about.loop);
+  if (about.loop) json["loop"] = to_json(about.loop->answer);
   for (const auto& [name, value] : about.facts) json["facts"][name] = value;
-  for (const auto& [name, value] : about.page.versions) json["versions"][name] = value;
-  json["command"] = about.page.command;
-  add_warnings(json, about.page.doubts);
+  for (const auto& [name, value] : about.versions) json["versions"][name] = value;
+  json["command"] = about.command;
   return json;
 }
 

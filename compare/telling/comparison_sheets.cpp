@@ -1,4 +1,4 @@
-#include "compare/discrepancy/comparison_sheets.hpp"
+#include "compare/telling/comparison_sheets.hpp"
 
 #include <fmt/core.h>
 
