@@ -119,13 +119,14 @@ std::string markdown_of(const CLI::App& command, const std::string& before) {
   return text;
 }
 
-/// docs/reference/commands.md.
+/// docs/reference/commands.md of an installation and of the site.
 std::string markdown_page(const CLI::App& app) {
   std::string page =
       "# The commands\n\n"
       "Every command with its options, as `soilbin COMMAND --help` shows them. This page is written by\n"
-      "`soilbin manual --markdown`, and a test holds it to that. Numbers carry their unit: `80N`, `110mm`, `20%`, "
-      "`5deg`. Errors\nand exit statuses: [errors.md](errors.md).\n\n| command | what it does |\n|---|---|\n";
+      "`soilbin manual --markdown`. Numbers carry their unit: `80N`, `110mm`, `20%`, `5deg`. Errors and exit "
+      "statuses:\n"
+      "[errors.md](errors.md).\n\n| command | what it does |\n|---|---|\n";
   const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
   std::string heading;
   for (const CLI::App* command : commands) {
@@ -161,7 +162,7 @@ void add_manual(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("manual", "the manual page of soilbin, or its completion for bash");
   const auto for_bash = std::make_shared<bool>(false), as_markdown = std::make_shared<bool>(false);
   command->add_flag("--bash-completion", *for_bash, "a script for bash in place of the page");
-  command->add_flag("--markdown", *as_markdown, "the page for the documents, docs/reference/commands.md")
+  command->add_flag("--markdown", *as_markdown, "the same as Markdown, as the documents hold it")
       ->excludes("--bash-completion");
   command->footer("Example: soilbin manual | man -l -");
   command->callback([=, &app, &session] {

@@ -18,6 +18,10 @@ install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/soilbin COMPONENT r
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT runtime)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+if(TARGET soilbin)  # in place of the page that says how to get it
+  install(FILES ${PROJECT_BINARY_DIR}/share/commands.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs/reference
+    COMPONENT runtime)
+endif()
 
 install(TARGETS soilbin_options EXPORT soilbin)
 foreach(library IN LISTS floors ITEMS experiments)

@@ -1,7 +1,6 @@
 """Writes the type stub of soilbin._soilbin from the signatures and docstrings that the extension carries.
 
-PYTHONPATH=build/release/python python3 notebooks/stub.py > notebooks/python/soilbin/_soilbin.pyi
-A test holds the file against what this prints.
+The build writes it into build/release/python/soilbin/_soilbin.pyi (notebooks/CMakeLists.txt).
 """
 import enum
 import inspect

@@ -2,8 +2,8 @@
 
 The pages are the Markdown files as they lie in the project; nothing is written a second time. Added here: the table of
 contents, from the folders; formulas as MathML, which browsers draw without a script or a network; the Python
-reference, from the docstrings, where the package is built; the C++ reference, from the headers (cpp_reference.py);
-links to notebooks, which become links to their exported pages; and links to files that are no pages, which become
+reference, from the docstrings, where the package is built; the C++ reference, from the headers (cpp_reference.py); the
+list of commands, which the command writes, where it is built; links to notebooks, which become links to their exported pages; and links to files that are no pages, which become
 their names.
 """
 import importlib.util
@@ -16,6 +16,7 @@ project, author, language = "soilbin", "the soilbin authors", "en"
 extensions = ["myst_parser", "sphinx.ext.autodoc"]
 sys.path[:0] = [str(ROOT / "build/release/python"), str(ROOT / "docs/site")]
 mathml = importlib.import_module("formula").mathml
+COMMANDS = ROOT / "build/release/share/commands.md"  # written by the build
 MODULES = ("soilbin", "soilbin.bekker_wong", "soilbin.dem", "soilbin.compare")
 # a build of the command alone leaves an empty folder soilbin, which Python takes for a package without a file
 HAS_PACKAGE = all(getattr(importlib.util.find_spec(name), "origin", None) for name in ("soilbin", "pandas"))
@@ -75,6 +76,8 @@ def prepare(app, name, source):
             public = [member for member in public if ours[member] not in seen]
             seen.update(ours.values())
             source[0] += f"\n\n## {module}\n\n```{{eval-rst}}\n.. automodule:: {module}\n   :members: {', '.join(public)}\n```\n"
+    if name.endswith("commands") and COMMANDS.is_file():
+        source[0] = COMMANDS.read_text(encoding="utf-8")
     if name.endswith("cpp-api"):
         source[0] += "\n\n" + importlib.import_module("cpp_reference").reference_text(ROOT, page.read_text(encoding="utf-8"))
     if name == root_doc:

@@ -1,4 +1,5 @@
 // The commands that help a person find the way: help, init, list, schema, doctor.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "cli/command.hpp"
@@ -64,6 +65,16 @@ TEST(Manual, DescribesEveryCommandAndFlagOfTheHelp) {
     EXPECT_THAT(page, HasSubstr(std::string("\n.SS ") + command + "\n"));
   for (const char* flag : {"\\-\\-slip", "\\-\\-save\\-model", "\\-\\-record"}) EXPECT_THAT(page, HasSubstr(flag));
   EXPECT_THAT(page, HasSubstr("SOILBIN_BEDS"));
+}
+
+TEST(Manual, ListsTheSameForTheDocuments) {
+  const std::string page = soilbin("manual --markdown").out;
+  EXPECT_THAT(page, testing::StartsWith("# The commands\n"));
+  for (const char* command : {"estimate", "run", "loop", "failure-map", "doctor"}) {
+    EXPECT_THAT(page, HasSubstr(fmt::format("\n| [{0}](#{0}) | ", command)));
+    EXPECT_THAT(page, HasSubstr(fmt::format("\n## {}\n", command)));
+  }
+  for (const char* flag : {"| `--slip` ", "| `--save-model` ", "| `--record` "}) EXPECT_THAT(page, HasSubstr(flag));
 }
 
 TEST(Manual, CompletesInBash) {
