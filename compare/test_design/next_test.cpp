@@ -89,35 +89,34 @@ std::vector<Contender> contenders(const Attribution& found) {
   return contenders;
 }
 
-/// A tire's pressure is let out or pumped up at every rig: where nothing says how far, about its declared one.
-void add_pressure(const Tire& wheel, Limits& limits) {
-  if (!wheel.inflation_pressure || !(*wheel.inflation_pressure > 0.0)) return;
-  limits.try_emplace("inflation_pressure", thresholds::lowest_pressure_share * *wheel.inflation_pressure,
-                     thresholds::highest_pressure_share * *wheel.inflation_pressure);
+/// The span of a condition in the runs that were made. A run that tells no pressure has the tire's.
+std::pair<double, double> span_of(const std::string& name, const Dataset& data) {
+  std::pair<double, double> span = {not_a_number, not_a_number};
+  for (OperatingCondition at : data.observations.rows) {
+    if (!at.inflation_pressure) at.inflation_pressure = data.campaign->wheel.inflation_pressure;
+    const double value = condition_view(name).get(at);
+    span = {std::fmin(span.first, value), std::fmax(span.second, value)};
+  }
+  return span;
 }
 
 /// The limits without what reaches beyond the runs that were made, where nobody said that the rig goes there.
-Limits as_run(const Limits& limits, const Limits& given, const Observations& observations) {
+Limits as_run(const Limits& limits, const Limits& given, const Dataset& data) {
   Limits narrow = limits;
-  const Limits run = ranges_of(observations);
-  for (auto& [name, range] : narrow) {
-    if (given.contains(name)) continue;
-    if (const auto made = run.find(name); made != run.end())
-      range = made->second;
-    else if (name == "load" || name == "slip")
-      range.first = range.second = condition_view(name).get(observations.rows.front());
-  }
+  for (auto& [name, range] : narrow)
+    if (const auto span = span_of(name, data); !given.contains(name) && std::isfinite(span.first)) range = span;
   return narrow;
 }
 
 /// Names of the conditions that lie outside what was run.
-std::vector<std::string> beyond(const Observations& observations, const OperatingCondition& at) {
-  Observations more = observations;
-  more.rows.push_back(at);
-  const Limits run = ranges_of(observations);
+std::vector<std::string> beyond(const Limits& limits, const Dataset& data, const OperatingCondition& at) {
+  constexpr double rounding = 1e-9;
   std::vector<std::string> names;
-  for (const auto& [name, range] : ranges_of(more))
-    if (const auto was = run.find(name); was == run.end() || was->second != range) names.push_back(name);
+  for (const auto& [name, range] : limits) {
+    const auto [least, most] = span_of(name, data);
+    const double value = condition_view(name).get(at), slack = rounding * std::max(std::abs(least), std::abs(most));
+    if (value < least - slack || value > most + slack) names.push_back(name);
+  }
   return names;
 }
 
@@ -199,6 +198,18 @@ class ConditionSearch {
   }
   const auto& best() const { return best_; }
 
+  /// Each condition back to what was run, where it decides as much there.
+  void draw_back(const Limits& run) {
+    constexpr double as_much = 0.99;
+    for (const auto& [name, range] : run) {
+      if (!best_) return;
+      OperatingCondition at = best_->first;
+      const ConditionView& view = condition_view(name);
+      view.set(at, std::clamp(view.get(at), range.first, range.second));
+      if (const auto p = contest_.at(at); p && p->worth >= as_much * best_->second.worth) best_.emplace(at, *p);
+    }
+  }
+
  private:
   const Contest& contest_;
   std::optional<std::pair<OperatingCondition, Prospect>> best_;
@@ -223,8 +234,8 @@ void refine(ConditionSearch& search, const Limits& limits) {
 std::optional<NextTest> next_test(const Attribution& found, const Limits& given) {
   const Dataset& data = found.base.data();
   Limits limits = given;  // what is given comes before what the campaign spans
-  limits.merge(limits_of(data.observations));
-  add_pressure(data.campaign->wheel, limits);
+  limits.merge(limits_of(data.observations, data.campaign->wheel));
+  const Limits run = as_run(limits, given, data);
   std::vector<Contender> all = contenders(found);
   if (all.size() < 2) return std::nullopt;
   const Contest contest(std::move(all), data.noise);
@@ -232,16 +243,17 @@ std::optional<NextTest> next_test(const Attribution& found, const Limits& given)
     ConditionSearch search(contest);
     for (const OperatingCondition& at : grid(data.observations, within)) search.ask(at);
     refine(search, within);
+    search.draw_back(run);
     return search.best();
   };
-  auto best = search_within(as_run(limits, given, data.observations));
+  auto best = search_within(run);
   if (!best || best->second.runs > thresholds::few_runs) best = search_within(limits);
   if (!best || best->second.runs > thresholds::max_runs) return std::nullopt;
   const auto& [at, prospect] = *best;
   NextTest next{.at = at,
                 .quantities = {},
                 .given = given,
-                .beyond = beyond(data.observations, at),
+                .beyond = beyond(limits, data, at),
                 .separates = {contest.ids(0), contest.ids(prospect.against)},
                 .runs = static_cast<int>(prospect.runs),
                 .distance = prospect.distance};

@@ -29,8 +29,8 @@ struct NextTest {
 /// The candidates are those that compete with the best one (competitors); where it stands by itself, the set that
 /// stands next behind it (the base model where there is none), to be surer still, unless that one is excluded already
 /// (is_settled): then nothing. limits: where nothing is given, what was run, and where no condition there decides in
-/// thresholds::few_runs, limits_of the observations; the pressure of a pneumatic tire about its declared one. Nothing
-/// where no condition within limits sets them apart in thresholds::max_runs.
+/// thresholds::few_runs, limits_of the observations and the wheel; no condition leaves what was run where it
+/// decides as much there. Nothing where no condition within limits sets them apart in thresholds::max_runs.
 std::optional<NextTest> next_test(const Attribution& found, const Limits& limits);
 
 }  // namespace soilbin::compare

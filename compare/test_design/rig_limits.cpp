@@ -66,6 +66,14 @@ Limits limits_of(const Observations& observations) {
   return limits;
 }
 
+Limits limits_of(const Observations& observations, const Tire& wheel) {
+  Limits limits = limits_of(observations);
+  if (const double declared = wheel.inflation_pressure.value_or(0.0); declared > 0.0)
+    limits.try_emplace("inflation_pressure", thresholds::lowest_pressure_share * declared,
+                       thresholds::highest_pressure_share * declared);
+  return limits;
+}
+
 double three_digits(double value) {
   if (value == 0.0) return 0.0;
   const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);

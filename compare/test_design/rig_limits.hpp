@@ -22,6 +22,10 @@ Limits ranges_of(const Observations& observations);
 /// little beyond them.
 Limits limits_of(const Observations& observations);
 
+/// The same for the next run of a wheel: a pneumatic tire is let out or pumped up at every rig, about its declared
+/// pressure (thresholds::lowest_pressure_share and its neighbour) where the runs span none.
+Limits limits_of(const Observations& observations, const Tire& wheel);
+
 /// The unit of the campaign's own column of a condition, where it has one, else the one in which people read it; and
 /// how many of it are one in SI.
 std::pair<std::string, double> own_unit(const std::map<std::string, DataColumn>& columns, const ConditionView& view);

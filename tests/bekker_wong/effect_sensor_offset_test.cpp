@@ -28,5 +28,22 @@ TEST(SensorOffset, AddsToItsOwnChannelOnly) {
     }
 }
 
+// A load cell that is off by a: the wheel behaves as one that carries W + a, on a slope and at yaw too.
+TEST(SensorOffset, OfTheLoadIsTheWheelThatCarriesMore) {
+  for (const double off : {150.0, -150.0})
+    for (const ForceFrame frame : {ForceFrame::travel, ForceFrame::wheel}) {
+      OperatingCondition at = driven(800, 0.2);
+      at.longitudinal_incline = 8 * degree, at.transverse_incline = -6 * degree, at.yaw = 12 * degree;
+      at.force_frame = frame;
+      OperatingCondition carried = at;
+      carried.load += off;
+      const Reading expected = base(carried), found = with({"sensor_offset", "load", {{"a", off}}}, at);
+      EXPECT_NEAR(found.drawbar_pull, expected.drawbar_pull, 1e-7 * at.load);
+      EXPECT_NEAR(found.torque, expected.torque, 1e-7 * at.load);
+      EXPECT_NEAR(found.sinkage, expected.sinkage, 1e-9);
+      EXPECT_NEAR(found.lateral_force, expected.lateral_force, 1e-7 * at.load);
+    }
+}
+
 }  // namespace
 }  // namespace soilbin::bekker_wong::bed

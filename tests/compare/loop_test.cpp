@@ -134,6 +134,39 @@ TEST(Loop, SaysWhatCannotBeToldApart) {
   EXPECT_LT(cosines.at("slip_sinkage"), 0.9);
 }
 
+// The attack: a truck tire at two pressures, and the cell that tells its load is off by 900 N. No channel is the load
+// itself, and what shows in all four was taken for lugs or the exit angle.
+TEST(SlowLoop, NamesALoadCellThatIsOff) {
+  Campaign campaign;
+  campaign.name = "truck";
+  campaign.wheel.radius = 0.67, campaign.wheel.width = 0.43;
+  campaign.wheel.inflation_pressure = 150e3, campaign.wheel.carcass_pressure = Estimate{20e3, 5e3};
+  campaign.soil = {.exponent = {0.7, 0.03},
+                   .k_c = {5270, 500},
+                   .k_phi = {1515e3, 80e3},
+                   .cohesion = {1720, 200},
+                   .friction_angle = {29 * degree, 0.5 * degree},
+                   .shear_modulus = {0.025, 0.003},
+                   .stress_angle_c1 = {0.43, 0.03},
+                   .stress_angle_c2 = {0.32, 0.03},
+                   .density = 1600};
+  const EffectChoice flexible{"tire_flexibility", "flat_section", {}};
+  campaign.effects = {flexible};
+  std::vector<OperatingCondition> rows;
+  for (const double pressure : {100e3, 300e3})
+    for (const double load : {6e3, 12e3, 24e3})
+      for (const double slip : {0.05, 0.15, 0.3, 0.5})
+        for (int twice = 0; twice < 2; ++twice) {
+          OperatingCondition at;
+          at.load = load, at.slip = slip, at.inflation_pressure = pressure;
+          rows.push_back(at);
+        }
+  measure(campaign, rows, {flexible, {"sensor_offset", "load", {{"a", 900.0}}}}, {60.0, 30.0, 5e-4, 50.0}, 3);
+  const LoopAnswer answer = run_loop(campaign, quick());
+  ASSERT_EQ(answer.verdict, Verdict::effect_found) << answer.reason;
+  EXPECT_TRUE(in_ambiguity_set(answer, {"sensor_offset"}));
+}
+
 TEST(SlowLoop, NamesTwoEffects) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {{"multipass", "stiffer", {{"a", 0.8}}}, {"sensor_offset", "drawbar_pull", {{"a", 40.0}}}},
