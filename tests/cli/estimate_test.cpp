@@ -313,7 +313,7 @@ TEST(Estimate, ATireThatFlattensAndIsAskedAsRigidIsTold) {
   };
   const Outcome rigid = soilbin("estimate --soil dry-sand --effect none " + truck("300kPa"));
   EXPECT_THAT(rigid.err,
-              AllOf(HasSubstr("the tire flattens at load 37.5 kN"), HasSubstr("inflation 300 kPa, carcass 20"),
+              AllOf(HasSubstr("the tire flattens at load 37.5 kN"), HasSubstr("inflation 300 kPa and carcass 20"),
                     HasSubstr("with --effect tire_flexibility")));
   EXPECT_THAT(soilbin("estimate --soil dry-sand --effect none " + truck("3000kPa")).err,
               Not(HasSubstr("the tire flattens")));
