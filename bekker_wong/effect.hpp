@@ -179,6 +179,9 @@ bool depends_on(const EffectForm& form, std::string_view key);
 /// and for a value outside its bounds.
 const EffectForm& find_form(const EffectChoice& choice);
 
+/// Whether one of these effects reads the tire's inflation pressure: the tire flattens. Throws InputError as find_form.
+bool is_flexible(const std::vector<EffectChoice>& effects);
+
 /// A parameter of a form. Throws InputError with the nearest right word for a name that it doesn't have.
 const EffectParameter& find_parameter(const EffectForm& form, const std::string& name);
 

@@ -80,12 +80,6 @@ std::optional<compare::LoopOfComparison> ask_loop(const compare::Comparison& com
   }
 }
 
-/// What a title calls the soil where the analytic model's values are another one's.
-std::string soil_of_both(const std::string& own, const std::string& values_of, bool grains) {
-  if (values_of.empty() || values_of == own) return own;
-  return grains ? fmt::format("{}, analytic values of {}", own, values_of) : values_of;
-}
-
 int compare_models(CompareOptions asked, const CLI::App& command, const Session& session) {
   if (!asked.model.empty()) check_model(asked.model, all_words<ModelKind>());
   if (asked.model == "bekker_wong" && !asked.soil_bin.recorded.empty())
@@ -97,13 +91,8 @@ int compare_models(CompareOptions asked, const CLI::App& command, const Session&
   asked.conditions.pick(question);
   check_flags(asked, command, question);
   compare::ComparisonAbout about;
-  std::string values_of;  // the soil that --soil names
-  if (!asked.soil.empty()) {
-    const Soil given = find_soil(asked.soil, session.place.library);
-    question.scenario.soil.semi_empirical = given.semi_empirical;
-    values_of = compare::in_words(given);
-    about.facts.emplace_back("the analytic model's soil values", asked.soil);
-  }
+  const AnalyticSoil values(asked.soil, session.place.library, question.scenario.soil);
+  if (!asked.soil.empty()) about.facts.emplace_back("the analytic model's soil values", asked.soil);
   if (!asked.no_loop) compare::check_soil_for_loop(question.scenario.soil);  // refused before anything is run
   if (!asked.replay.empty()) {
     about.replay = compare::read_replay(asked.replay);
@@ -123,7 +112,7 @@ int compare_models(CompareOptions asked, const CLI::App& command, const Session&
   std::vector<std::string> doubts = compare::doubts(question, choices, sides);
   if (std::string density = compare::bed_density_doubt(question.scenario.soil, runs); !density.empty())
     doubts.push_back(std::move(density));
-  question.scenario.soil.name = soil_of_both(question.scenario.soil.name, values_of, !runs.empty());
+  question.scenario.soil.name = values.title(!runs.empty());
   if (!asked.measured.empty())
     sides.push_back(compare::side_of(find_campaign(session.place, asked.measured), question));
   const compare::Comparison comparison = compare::compare_sides(question, choices, std::move(sides));

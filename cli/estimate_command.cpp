@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -66,10 +65,9 @@ int estimate(const Question& inputs, const EstimateOptions& options, const Sessi
         "--plot draws curves: it takes several values of slip or of another condition\n"
         "  hint: --slip 0%..60%, or --load 50N..200N; the steepest slope: soilbin limits --plot slope.svg");
   require_semi_empirical(question, session.place.library);
-  std::vector<std::string> doubts = options.rigid.apply(question, inputs.switches_effects_off());
+  std::vector<std::string> notes = options.rigid.apply(question, inputs.switches_effects_off());
   const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
-  std::ranges::copy(compare::doubts(question, study), std::back_inserter(doubts));
-  print_warnings(doubts);
+  const std::vector<std::string> doubts = tell_doubts(std::move(notes), question, study);
   Outputs outputs;
   outputs.csv(options.csv, [&] { return compare::study_csv(study, compare::remarks_about(question.scenario)); });
   outputs.drawing(options.plot, [&] { return sheet_of(question, study); });

@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -32,7 +31,7 @@ int explain(const Question& inputs, const RigidFlag& rigid, bool json, const Ses
   if (question.study.conditions.size() > most)
     throw InputError(fmt::format("{} conditions are too many to explain; pick one with --load, --slip, ...",
                                  question.study.conditions.size()));
-  std::vector<std::string> doubts = rigid.apply(question, inputs.switches_effects_off());
+  std::vector<std::string> notes = rigid.apply(question, inputs.switches_effects_off());
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   if (!json) fmt::print("{} on {}\n\n", compare::tire_in_words(question), compare::in_words(question.scenario.soil));
   bool first = true;
@@ -51,8 +50,7 @@ int explain(const Question& inputs, const RigidFlag& rigid, bool json, const Ses
     }
   }
   if (!json) fmt::print("\nWhere the values come from\n{}", as_text(compare::sources_table(question.scenario)));
-  std::ranges::copy(compare::doubts(question, answered), std::back_inserter(doubts));
-  print_warnings(doubts);
+  const std::vector<std::string> doubts = tell_doubts(std::move(notes), question, answered);
   if (!json) return done;
   nlohmann::ordered_json document = document_of("soilbin-explain/1", question, rows, session.place.effects);
   document["sources"] = compare::sources_json(question.scenario);

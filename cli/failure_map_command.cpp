@@ -104,12 +104,7 @@ int plan(const FailureMapOptions& asked, Case question, const compare::InclineMa
 int failure_map(const FailureMapOptions& asked, const CLI::App& command, const Session& session) {
   Case question = find_study(session.place, asked.study);
   check_flags_of_grains(asked.soil_bin, command, question);
-  std::string values_of;  // the soil that --soil names
-  if (!asked.soil.empty()) {
-    const Soil given = find_soil(asked.soil, session.place.library);
-    question.scenario.soil.semi_empirical = given.semi_empirical,
-    values_of = given.name.empty() ? asked.soil : given.name;
-  }
+  const AnalyticSoil values(asked.soil, session.place.library, question.scenario.soil);
   if (!asked.stored && !asked.store.empty())  // what is only read may lie anywhere
     if (const std::string why = why_not_writable(asked.store); !why.empty()) throw InputError("--store: " + why);
   asked.batch.check(asked.store);
@@ -133,8 +128,7 @@ int failure_map(const FailureMapOptions& asked, const CLI::App& command, const S
                                  .packing = static_cast<std::uint64_t>(asked.soil_bin.packing)};
   try {
     compare::FailureMapResult result = compare::learn_map(map, grains, store, how);
-    if (std::string& soil = result.map.scenario.soil.name; !values_of.empty() && values_of != soil)
-      soil += ", analytic values of " + values_of;
+    result.map.scenario.soil.name = values.title(true);
     clear_progress_line();
     if (asked.dry_run) return plan(asked, question, map, {});
     const compare::FailureMapAbout about{"Failure map: " + name_of(result.map.incline),

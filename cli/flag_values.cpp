@@ -75,9 +75,20 @@ std::pair<double, double> read_range(const std::string& flag, const std::string&
 
 namespace {
 
+/// "100,250" are two values: nobody writes 100.25 with a third decimal of 0.
+bool are_round_and_rise(const std::string& low, const std::string& high) {
+  constexpr std::size_t least = 3;
+  const auto is_round = [](const std::string& text) {
+    return text.size() >= least && text.find_first_not_of("0123456789") == text.npos && text.back() == '0';
+  };
+  return is_round(low) && is_round(high) && low.size() == high.size() && low < high;
+}
+
 /// "80,5N" may be two loads, or one with a decimal comma.
 void refuse_decimal_comma(const std::string& flag, const std::vector<std::string>& numbers, const std::string& unit) {
   const std::string& whole = numbers.front();
+  if (numbers.size() == 2 && are_round_and_rise(whole, numbers.back().substr(0, numbers.back().size() - unit.size())))
+    return;
   const bool may_be_one = numbers.size() == 2 && whole.find_first_not_of("-0123456789") == whole.npos &&
                           numbers.back().find_first_of("0123456789") == 0;
   if (!may_be_one) return;

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -33,11 +32,10 @@ double max_slip_of(const LimitsOptions& options) {
 int limits(const Question& inputs, const LimitsOptions& options, const Session& session) {
   Case question = inputs.ask(session.place);
   require_semi_empirical(question, session.place.library);
-  std::vector<std::string> doubts = options.rigid.apply(question, inputs.switches_effects_off());
+  std::vector<std::string> notes = options.rigid.apply(question, inputs.switches_effects_off());
   const std::vector<compare::WheelLimits> answers = compare::limits_of(question, max_slip_of(options));
   const std::vector<compare::ModelAnswers> at_limits = compare::answers_at_limits(question, answers);
-  std::ranges::copy(compare::doubts(question, at_limits), std::back_inserter(doubts));
-  print_warnings(doubts);
+  const std::vector<std::string> doubts = tell_doubts(std::move(notes), question, at_limits);
   Outputs outputs;
   outputs.csv(options.csv,
               [&] { return compare::limits_csv(answers, at_limits, compare::remarks_about(question.scenario)); });

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "cli/flag_values.hpp"
+#include "cli/text_output.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/condition_axes.hpp"
@@ -16,6 +19,7 @@
 #include "scenario/source_text.hpp"
 
 namespace soilbin::cli {
+
 namespace {
 
 const EffectFormWords& pick_form(const std::string& id, const std::string& form,
@@ -115,6 +119,25 @@ EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocab
 }
 
 }  // namespace
+
+std::vector<std::string> tell_doubts(std::vector<std::string> notes, const Case& question,
+                                     const std::vector<compare::ModelAnswers>& study) {
+  std::ranges::copy(compare::doubts(question, study), std::back_inserter(notes));
+  print_warnings(notes);
+  return notes;
+}
+
+AnalyticSoil::AnalyticSoil(const std::string& named, const Library& library, Soil& soil) : own_(soil.name) {
+  if (named.empty()) return;
+  const Soil given = find_soil(named, library);
+  soil.semi_empirical = given.semi_empirical;
+  values_of_ = given.name.empty() ? named : given.name;
+}
+
+std::string AnalyticSoil::title(bool grains) const {
+  if (values_of_.empty() || values_of_ == own_) return own_;
+  return grains ? fmt::format("{}, analytic values of {}", own_, values_of_) : values_of_;
+}
 
 void add_effect(std::vector<EffectChoice>& effects, const std::string& text, const EffectVocabulary& vocabulary,
                 const Soil& soil) {

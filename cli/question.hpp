@@ -85,6 +85,23 @@ class RigidFlag {
   bool rigid_ = false;
 };
 
+/// Prints the notes and what is doubtful in the answers as warnings; returns them all, for a document.
+std::vector<std::string> tell_doubts(std::vector<std::string> notes, const Case& question,
+                                     const std::vector<compare::ModelAnswers>& study);
+
+/// --soil where the analytic wheel is set beside grains: its values are that soil's, the grains stay the study's.
+class AnalyticSoil {
+ public:
+  /// Puts the values into `soil`; leaves it where none is named. Throws InputError with the nearest right name.
+  AnalyticSoil(const std::string& named, const Library& library, Soil& soil);
+
+  /// What a title calls the soil: both, where grains stand beside values of another soil.
+  std::string title(bool grains) const;
+
+ private:
+  std::string own_, values_of_;
+};
+
 /// Flags for a soil's own values: "--friction-angle 30deg", "--k-phi '1500+-200 kN/m^(n+2)'", named as in a soil file.
 class SoilFlags {
  public:

@@ -89,6 +89,11 @@ const EffectForm& find_form(const EffectChoice& choice) {
       fmt::format("effect '{}' has no variant '{}'{}", choice.id, choice.form, suggestion(choice.form, forms)));
 }
 
+bool is_flexible(const std::vector<EffectChoice>& effects) {
+  return std::ranges::any_of(
+      effects, [](const EffectChoice& choice) { return depends_on(find_form(choice), "inflation_pressure"); });
+}
+
 const EffectParameter& find_parameter(const EffectForm& form, const std::string& name) {
   const auto found = std::ranges::find(form.parameters, name, &EffectParameter::name);
   if (found != form.parameters.end()) return *found;

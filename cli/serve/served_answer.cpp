@@ -48,9 +48,7 @@ void in_kilonewtons(compare::Sheet& sheet) {
 /// sinkage. 0 for a tire whose effects do not read its inflation pressure.
 double deflection(const ServedAnswer& one, const TractionResult& result) {
   const Case& question = one.asked.question;
-  const bool flexible = std::ranges::any_of(question.study.models.front().effects, [](const EffectChoice& effect) {
-    return bekker_wong::depends_on(bekker_wong::find_form(effect), "inflation_pressure");
-  });
+  const bool flexible = bekker_wong::is_flexible(question.study.models.front().effects);
   const double rim = question.scenario.tire.radius * (1.0 - std::cos(result.entry_angle));
   return flexible ? std::max(0.0, rim - result.sinkage.value) : 0.0;
 }

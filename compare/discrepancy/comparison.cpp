@@ -193,9 +193,7 @@ std::vector<ModelAnswers> answers_of(const Case& question, const std::vector<Mod
 bool tires_differ(const Comparison& comparison, std::size_t side, std::size_t reference) {
   const auto flexible = [&](std::size_t s) {
     return comparison.sides[s].kind == SideKind::analytic && s < comparison.choices.size() &&
-           std::ranges::any_of(comparison.choices[s].effects, [](const EffectChoice& effect) {
-             return bekker_wong::depends_on(bekker_wong::find_form(effect), "inflation_pressure");
-           });
+           bekker_wong::is_flexible(comparison.choices[s].effects);
   };
   const auto rigid = [&](std::size_t s) { return comparison.sides[s].kind == SideKind::grains; };
   return (flexible(side) && rigid(reference)) || (rigid(side) && flexible(reference));

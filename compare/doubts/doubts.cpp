@@ -18,6 +18,7 @@
 #include "compare/doubts/row_doubts.hpp"
 #include "compare/doubts/unused_inputs.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/sweep/declared_flexibility.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/nearest_word.hpp"
 
@@ -97,19 +98,13 @@ std::string too_steep_across(const Scenario& scenario, const Answer& answer, dou
       in_words(at), newtons(share, 3), beside, newtons(held, 3));
 }
 
-/// Whether the scenario's effects let the tire flatten.
-bool is_flexible(const Scenario& scenario) {
-  return std::ranges::any_of(scenario.effects, [](const EffectChoice& effect) {
-    return depends_on(bekker_wong::find_form(effect), "inflation_pressure");
-  });
-}
-
 /// A tire that flattens until its rim is near the ground.
 std::string too_flat(const Scenario& scenario, const Answer& answer) {
   constexpr double most = 0.2;  // of the radius, chosen: half of a high section height
   const double radius = scenario.tire.radius;
   const double flattened = radius * (1 - std::cos(answer.result->entry_angle)) - answer.result->sinkage.value;
-  if (!is_flexible(scenario) || !(flattened > most * radius)) return "";  // nor of a drive, which has no angles
+  if (!bekker_wong::is_flexible(scenario.effects) || !(flattened > most * radius))
+    return "";  // nor of a drive, which has no angles
   return fmt::format(
       "the tire deflects by {:.3g} mm at {}, {:.0f} % of its radius: tires bear about 10 %, and {:.0f} % at the most. "
       "Raise the inflation pressure or lower the load",
@@ -120,16 +115,15 @@ std::string too_flat(const Scenario& scenario, const Answer& answer) {
 std::string taken_as_rigid(const Scenario& scenario, const Answer& answer) {
   constexpr double hardly = 0.01;  // of the load
   const Tire tire = tire_at(scenario.tire, answer.at);
-  if (!tire.inflation_pressure || is_flexible(scenario)) return "";
+  if (!tire.inflation_pressure || bekker_wong::is_flexible(scenario.effects)) return "";
   Scenario flexible = scenario;
   flexible.effects.push_back({"tire_flexibility", "", {}});
   const bekker_wong::BekkerWong model({.errors = false, .patch = false});
   const Answer asked = std::isfinite(answer.result->entry_angle) ? answer : ask(model, scenario, answer.at);
   if (!asked.result) return "";  // of a drive, where it is at no steady state
-  const double rigid = asked.result->drawbar_pull.value,
-               carcass = *declared_ground_pressure(tire) - *tire.inflation_pressure;
-  const std::string pressure = fmt::format("the tire flattens at {} (inflation {:.4g} kPa, carcass {:.4g} kPa)",
-                                           in_words(answer.at), *tire.inflation_pressure / 1000, carcass / 1000);
+  const double rigid = asked.result->drawbar_pull.value;
+  const std::string pressure =
+      fmt::format("the tire flattens at {} ({})", in_words(answer.at), ground_pressure_in_words(tire));
   const Answer flattened = ask(model, flexible, answer.at);
   if (!flattened.result) return pressure + ", and carries no more there: " + flattened.error;
   const double pull = flattened.result->drawbar_pull.value;

@@ -65,10 +65,7 @@ std::vector<Peak> peaks(const StudyPart& part, std::size_t model) {
 std::size_t leading_model(const StudyPart& part) {
   if (part.question.scenario.tire.inflation_pressure)
     for (std::size_t m = 0; m < part.study.size(); ++m)
-      if (std::ranges::any_of(part.study[m].choice.effects, [](const EffectChoice& effect) {
-            return bekker_wong::depends_on(bekker_wong::find_form(effect), "inflation_pressure");
-          }))
-        return m;
+      if (bekker_wong::is_flexible(part.study[m].choice.effects)) return m;
   return 0;
 }
 

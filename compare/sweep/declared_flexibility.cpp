@@ -75,4 +75,9 @@ std::vector<std::string> make_rigid(Case& question) {
   return {};
 }
 
+std::string ground_pressure_in_words(const Tire& tire) {
+  const double inflation = *tire.inflation_pressure, carcass = *declared_ground_pressure(tire) - inflation;
+  return fmt::format("inflation {:.4g} kPa and carcass {:.4g} kPa", inflation / 1000, carcass / 1000);
+}
+
 }  // namespace soilbin::compare

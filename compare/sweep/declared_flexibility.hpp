@@ -24,4 +24,7 @@ std::vector<std::string> flexible_where_declared(Case& question);
 /// Throws InputError where a model names tire_flexibility or a condition an inflation pressure.
 std::vector<std::string> make_rigid(Case& question);
 
+/// "inflation 150 kPa and carcass 20 kPa", of a tire that declares an inflation pressure.
+std::string ground_pressure_in_words(const Tire& tire);
+
 }  // namespace soilbin::compare

@@ -8,6 +8,7 @@
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/model.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/sweep/declared_flexibility.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/quantity.hpp"
@@ -238,13 +239,9 @@ std::vector<Step> effect_steps(const Scenario& scenario, const OperatingConditio
 std::string pressure_remark(const Scenario& scenario, const OperatingCondition& at, double critical, double most) {
   const Tire tire = tire_at(scenario.tire, at);
   if (!tire.inflation_pressure) return "the wheel is declared rigid";
-  const double carried = *declared_ground_pressure(tire), carcass = carried - *tire.inflation_pressure;
-  const std::string given = fmt::format("inflation {:.4g} kPa and carcass {:.4g} kPa give {:.4g} kPa",
-                                        *tire.inflation_pressure / 1000, carcass / 1000, carried / 1000);
-  const bool flexible = std::ranges::any_of(scenario.effects, [](const EffectChoice& effect) {
-    return depends_on(bekker_wong::find_form(effect), "inflation_pressure");
-  });
-  if (flexible)
+  const double carried = *declared_ground_pressure(tire);
+  const std::string given = fmt::format("{} give {:.4g} kPa", ground_pressure_in_words(tire), carried / 1000);
+  if (bekker_wong::is_flexible(scenario.effects))
     return fmt::format("of the rigid wheel; {}, and the flexible tire presses with {:.4g} kPa at the most", given,
                        most / 1000);
   return fmt::format(

@@ -36,6 +36,13 @@ bekker_wong::RollingWheel wheel_of(const Scenario& scenario, const ModelChoice& 
           bekker_wong::make_effects(model.effects), scenario.bin};
 }
 
+bekker_wong::RollingWheel wheel_of(const Scenario& scenario) {
+  if (!scenario.soil.semi_empirical) throw InputError("soil '" + scenario.soil.name + "' has no semi_empirical values");
+  ModelChoice choice;
+  choice.effects = scenario.effects;
+  return wheel_of(scenario, choice);
+}
+
 /// The same for a smooth line: closer together towards the steepest one, where the slip turns up.
 std::vector<double> many_slopes_up_to(double steepest) {
   constexpr int points = 41;
@@ -190,11 +197,27 @@ std::string within_in_words(const WheelLimits& answer) {
 
 }  // namespace
 
+LargestPull largest_pull(const Scenario& scenario, OperatingCondition at) {
+  at.force_frame = ForceFrame::travel;
+  const bekker_wong::PullPeak peak = bekker_wong::largest_pull(wheel_of(scenario), at);
+  at.slip = peak.slip;
+  const Answer best = ask(with_errors(), scenario, at);
+  return {peak.slip, {peak.drawbar_pull, best.result ? best.result->drawbar_pull.std_error : not_a_number}};
+}
+
+std::optional<Estimate> slip_for_pull(const Scenario& scenario, OperatingCondition at, double drawbar) {
+  at.force_frame = ForceFrame::travel;
+  const std::optional<double> slip = bekker_wong::slip_for_pull(wheel_of(scenario), at, drawbar);
+  if (!slip) return std::nullopt;
+  const Estimate most = largest_pull(scenario, at).drawbar_pull;
+  if (!(most.value - drawbar >= most.std_error)) return Estimate{*slip, not_a_number};
+  at.slip = *slip;
+  return Estimate{*slip, error_of_root(scenario, at, &OperatingCondition::slip, 1.0)};
+}
+
 std::optional<Estimate> steepest_slope(const Scenario& scenario, OperatingCondition at, double drawbar) {
-  if (!scenario.soil.semi_empirical) throw InputError("soil '" + scenario.soil.name + "' has no semi_empirical values");
-  ModelChoice choice;
-  choice.effects = scenario.effects;
-  const bekker_wong::RollingWheel wheel = wheel_of(scenario, choice);
+  at.force_frame = ForceFrame::travel;
+  const bekker_wong::RollingWheel wheel = wheel_of(scenario);
   const std::optional<double> steepest = bekker_wong::steepest_slope(wheel, at, drawbar);
   if (!steepest) return std::nullopt;
   at.longitudinal_incline = *steepest;
@@ -310,7 +333,8 @@ std::string limits_csv(const std::vector<WheelLimits>& answers, const std::vecto
   std::string text = std::string("model,load_N,speed_m_s,transverse_incline_deg,yaw_deg,pass,") +
                      (with_pressure ? "inflation_pressure_kPa," : "") +
                      "slope_deg,slip,slip_se,largest_pull_N,"
-                     "largest_pull_se_N,slip_of_largest_pull,error,remark\n";
+                     "largest_pull_se_N,slip_of_largest_pull,max_slip,steepest_slope_within_max_slip_deg,"
+                     "steepest_slope_within_max_slip_se_deg,error,remark\n";
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const WheelLimits& answer = answers[i];
     const OperatingCondition& at = answer.at;
@@ -320,13 +344,17 @@ std::string limits_csv(const std::vector<WheelLimits>& answers, const std::vecto
                     answer.at_every_speed ? "" : csv_number(at.speed), csv_number(at.transverse_incline / degree),
                     csv_number(at.yaw / degree), at.pass) +
         (with_pressure ? "," + pressure : "");
-    if (!answer.error.empty()) text += asked + ",,,,,,," + csv_cell(answer.error) + ",\n";
+    if (!answer.error.empty()) text += asked + ",,,,,,,,,," + csv_cell(answer.error) + ",\n";
+    const std::string within = csv_number(answer.max_slip) + "," +
+                               (answer.steepest_within ? csv_number(*answer.steepest_within / degree) + "," +
+                                                             csv_number(answer.within_error / degree)
+                                                       : ",");
     for (std::size_t k = 0; k < answer.slopes.size(); ++k) {
       const SlopeRow& row = answer.slopes[k];
-      text += fmt::format("{},{},{},{},{},{},,{}\n", asked, csv_number(row.slope / degree),
+      text += fmt::format("{},{},{},{},{},{},{},,{}\n", asked, csv_number(row.slope / degree),
                           row.slip ? csv_number(*row.slip) + "," + csv_number(row.slip_error) : ",",
                           csv_number(row.best.drawbar_pull), csv_number(row.pull_error), csv_number(row.best.slip),
-                          csv_cell(remark(answer.model, at_limits[i].answers[k])));
+                          within, csv_cell(remark(answer.model, at_limits[i].answers[k])));
     }
   }
   return text;
@@ -359,6 +387,12 @@ Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& limits)
     add(1, "slip at which it climbs the slope", 2,
         [](const SlopeRow& row) { return row.slip ? 100 * *row.slip : not_a_number; });
     add(1, "slip of the largest pull", 1, [](const SlopeRow& row) { return 100 * row.best.slip; });
+    if (answer.steepest_within && *answer.steepest_within >= 0.0) {
+      Series within{fmt::format("{}: steepest slope at up to {:.3g} % slip", which, 100 * answer.max_slip)};
+      within.color = static_cast<int>(i), within.mark = Mark::points;
+      within.x = {*answer.steepest_within / degree}, within.y = {100 * answer.max_slip};
+      sheet.plots[1].series.push_back(std::move(within));
+    }
   }
   if (std::ranges::all_of(sheet.plots[0].series, [](const Series& series) {
         return std::ranges::all_of(series.error, [](double error) { return error == 0.0; });

@@ -61,6 +61,20 @@ std::vector<WheelLimits> limits_of(const Case& question, double max_slip = 0.2);
 /// without semi_empirical values, NoSolution.
 std::optional<Estimate> steepest_slope(const Scenario& scenario, OperatingCondition at, double drawbar = 0.0);
 
+/// The largest drawbar pull over 0 <= slip <= 1 [N] with its standard error to first order, and the slip that gives it.
+struct LargestPull {
+  double slip = 0.0;
+  Estimate drawbar_pull;
+};
+/// The slip and the force frame of `at` are not read. Throws InputError for a soil without semi_empirical values, and
+/// NoSolution where no slip has a balance.
+LargestPull largest_pull(const Scenario& scenario, OperatingCondition at);
+
+/// The smallest slip at which the wheel pulls `drawbar` [N], as bekker_wong::slip_for_pull, with its standard error to
+/// first order; that is not a number near the pull's peak, where the wheel may not pull so much at all. Throws as
+/// largest_pull.
+std::optional<Estimate> slip_for_pull(const Scenario& scenario, OperatingCondition at, double drawbar = 0.0);
+
 /// The wheel where it pulls most on each slope: what there may be doubts about.
 std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vector<WheelLimits>& answers);
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "cli/command.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::cli::test {
 namespace {
@@ -335,17 +336,22 @@ TEST(LimitsCommand, TheSlipOnASlopeIsTheSlipOfNoPullThere) {
   EXPECT_NEAR(row["slopes"].back()["largest_pull"].get<double>(), 0.0, 1e-5);
   EXPECT_THAT(text_of(csv),
               HasSubstr(fmt::format(  // tables hold 15 digits
-                  ",{:.15g},{:.15g},{:.15g},{:.15g},{:.15g},,\n", second["slip"].get<double>(),
+                  ",{:.15g},{:.15g},{:.15g},{:.15g},{:.15g},0.2,{:.15g},{:.15g},,\n", second["slip"].get<double>(),
                   second["std_error"]["slip"].get<double>(), second["largest_pull"].get<double>(),
-                  second["std_error"]["largest_pull"].get<double>(), second["slip_of_largest_pull"].get<double>())));
+                  second["std_error"]["largest_pull"].get<double>(), second["slip_of_largest_pull"].get<double>(),
+                  row["steepest_slope_within_max_slip"].get<double>() / degree,
+                  row["std_error"]["steepest_slope_within_max_slip"].get<double>() / degree)));
   const std::string table = text_of(csv);
   EXPECT_EQ(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')), 1 + row["slopes"].size());
   EXPECT_THAT(text_of(plot), StartsWith("\x89PNG"));
   const std::string drawing = (scratch / "l.svg").string();
-  ASSERT_EQ(soilbin("limits --tire rover-wheel --soil dry-sand --load 64.68N --plot '" + drawing + "'").status, 0);
+  ASSERT_EQ(
+      soilbin("limits --tire rover-wheel --soil dry-sand --load 64.68N --max-slip 60% --plot '" + drawing + "'").status,
+      0);
   EXPECT_THAT(text_of(drawing), HasSubstr("rover-wheel on dry-sand, load 64.68 N"));
   for (const char* named : {"analytic wheel: largest pull<", "analytic wheel: slip at which it climbs the slope<",
-                            "analytic wheel: slip of the largest pull<", "<polygon", "one standard error"})
+                            "analytic wheel: slip of the largest pull<",
+                            "analytic wheel: steepest slope at up to 60 % slip<", "<polygon", "one standard error"})
     EXPECT_THAT(text_of(drawing), HasSubstr(named));
   const std::string svg = text_of(drawing), path = svg.substr(svg.find(" d=\"M", svg.find("class=\"s c0\"")), 2000);
   EXPECT_GT(std::count(path.begin(), path.begin() + static_cast<long>(path.find("/>")), 'L'), 30) << "a smooth line";

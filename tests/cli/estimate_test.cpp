@@ -154,11 +154,15 @@ TEST(Estimate, ListsAndStepsSpanAGridSlipFastest) {
   EXPECT_THAT(loads_and_slips(asked + "--slip 10% --load 40,50,60N"),
               ElementsAre(Pair(40, 0.1), Pair(50, 0.1), Pair(60, 0.1)))
       << "the last one's unit is that of all";
+  EXPECT_THAT(loads_and_slips(asked + "--slip 10% --load 100,120N"), ElementsAre(Pair(100, 0.1), Pair(120, 0.1)))
+      << "nobody writes a third decimal of 0";
 }
 
 TEST(Estimate, RefusesTwoValuesThatMayBeOneWithADecimalComma) {
   for (const auto& [condition, hint] : {std::pair{"--load 80N --slip 0,1", "'0.0,1.0' are two, '0.1' is one"},
                                         {"--slip 20% --load 80,5N", "'80N,5N' are two, '80.5N' is one"},
+                                        {"--slip 20% --load 1,500N", "'1N,500N' are two, '1.500N' is one"},
+                                        {"--slip 20% --load 80,50N", "'80N,50N' are two, '80.50N' is one"},
                                         {"--slip 20% --load 1,5kN", "'1kN,5kN' are two, '1.5kN' is one"}}) {
     const Outcome r = soilbin(std::string("estimate --tire rover-wheel --soil dry-sand ") + condition);
     EXPECT_EQ(r.status, 2) << condition;
@@ -313,7 +317,7 @@ TEST(Estimate, ATireThatFlattensAndIsAskedAsRigidIsTold) {
   };
   const Outcome rigid = soilbin("estimate --soil dry-sand --effect none " + truck("300kPa"));
   EXPECT_THAT(rigid.err,
-              AllOf(HasSubstr("the tire flattens at load 37.5 kN"), HasSubstr("inflation 300 kPa, carcass 20"),
+              AllOf(HasSubstr("the tire flattens at load 37.5 kN"), HasSubstr("inflation 300 kPa and carcass 20"),
                     HasSubstr("with --effect tire_flexibility")));
   EXPECT_THAT(soilbin("estimate --soil dry-sand --effect none " + truck("3000kPa")).err,
               Not(HasSubstr("the tire flattens")));
