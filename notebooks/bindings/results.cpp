@@ -5,6 +5,7 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answers.hpp"
+#include "compare/sweep/declared_flexibility.hpp"
 #include "compare/sweep/explanation.hpp"
 #include "compare/sweep/varying.hpp"
 #include "notebooks/bindings/bindings.hpp"
@@ -115,6 +116,47 @@ void bind_models(py::module_& module) {
       "called with (share done 0 .. 1, stage).");
 }
 
+/// The analytic model's question about a scenario.
+Case question_of(const Scenario& scenario) {
+  Case question;
+  question.scenario = scenario;
+  question.scenario.effects.clear();
+  ModelChoice choice{ModelKind::bekker_wong, scenario.effects, ""};
+  choice.errors = scenario.errors;
+  question.study.models = {choice};
+  label_models(question.study.models);
+  return question;
+}
+
+std::vector<std::string> make_as_asked(Case& question, bool rigid) {
+  return rigid ? compare::make_rigid(question) : compare::flexible_where_declared(question);
+}
+
+void bind_declared_flexibility(py::module_& module) {
+  module.def(
+      "as_asked",
+      [](const Scenario& scenario, const std::vector<OperatingCondition>& at, bool rigid) {
+        Case question = question_of(scenario);
+        question.study.conditions = at;
+        std::vector<std::string> notes = make_as_asked(question, rigid);
+        Scenario asked = scenario;
+        asked.tire = question.scenario.tire;
+        asked.effects = question.study.models.front().effects;
+        return std::pair(asked, notes);
+      },
+      py::arg("scenario"), py::arg("at"), py::arg("rigid") = false,
+      "The scenario as the commands ask it at these conditions, and what they say of that: with tire_flexibility where "
+      "the tire declares an inflation pressure and no effect names it, or `rigid`.");
+  module.def(
+      "as_asked",
+      [](const Case& given, bool rigid) {
+        Case question = given;
+        std::vector<std::string> notes = make_as_asked(question, rigid);
+        return std::pair(question, notes);
+      },
+      py::arg("case"), py::arg("rigid") = false, "The same of a case's study.");
+}
+
 void bind_explanation(py::module_& module) {
   using compare::Explanation;
   using compare::Step;
@@ -151,13 +193,7 @@ void bind_explanation(py::module_& module) {
   module.def(
       "doubts_of",
       [](const Scenario& scenario, const std::vector<Answer>& answers) {
-        Case question;
-        question.scenario = scenario;
-        question.scenario.effects.clear();
-        ModelChoice choice{ModelKind::bekker_wong, scenario.effects, ""};
-        choice.errors = scenario.errors;
-        question.study.models = {choice};
-        label_models(question.study.models);
+        Case question = question_of(scenario);
         for (const Answer& answer : answers) question.study.conditions.push_back(answer.at);
         return compare::doubts(question, {{question.study.models.front(), answers}});
       },
@@ -172,6 +208,7 @@ void bind_explanation(py::module_& module) {
 void bind_results(py::module_& module) {
   bind_result(module);
   bind_models(module);
+  bind_declared_flexibility(module);
   bind_explanation(module);
 }
 

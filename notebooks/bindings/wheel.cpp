@@ -3,8 +3,8 @@
 
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/effect.hpp"
-#include "bekker_wong/limits.hpp"
 #include "bekker_wong/model.hpp"
+#include "compare/report/number_text.hpp"
 #include "compare/sweep/wheel_limits.hpp"
 #include "notebooks/bindings/bindings.hpp"
 #include "notebooks/bindings/scenario.hpp"
@@ -79,28 +79,23 @@ void bind_rolled(py::module_& module) {
 }
 
 void bind_limits(py::module_& module) {
-  using bekker_wong::PullPeak;
-  py::class_<PullPeak>(module, "PullPeak", "The largest drawbar pull [N] and the slip that gives it.")
-      .def_readonly("slip", &PullPeak::slip, "[-]")
-      .def_readonly("drawbar_pull", &PullPeak::drawbar_pull, "[N]")
-      .def("__repr__", [](const PullPeak& p) {
-        return fmt::format("PullPeak(slip={:.4g}, drawbar_pull={:.4g} N)", p.slip, p.drawbar_pull);
+  using compare::LargestPull;
+  py::class_<LargestPull>(module, "PullPeak", "The largest drawbar pull [N] and the slip that gives it.")
+      .def_readonly("slip", &LargestPull::slip, "[-]")
+      .def_property_readonly(
+          "drawbar_pull", [](const LargestPull& p) { return p.drawbar_pull.value; }, "[N]")
+      .def_property_readonly(
+          "drawbar_pull_std_error", [](const LargestPull& p) { return p.drawbar_pull.std_error; },
+          "[N], to first order from the soil's standard deviations")
+      .def("__repr__", [](const LargestPull& p) {
+        return fmt::format("PullPeak(slip={:.4g}, drawbar_pull={} N)", p.slip, compare::number(p.drawbar_pull));
       });
-  module.def(
-      "largest_pull",
-      [](const Scenario& scenario, const OperatingCondition& at) {
-        return bekker_wong::largest_pull(wheel_of(scenario), at);
-      },
-      py::arg("scenario"), py::arg("at"),
-      "Largest drawbar pull over 0 <= slip <= 1; the slip of `at` is not read. Raises NoSolution where no slip has a "
-      "balance.");
-  module.def(
-      "slip_for_pull",
-      [](const Scenario& scenario, const OperatingCondition& at, double drawbar) {
-        return bekker_wong::slip_for_pull(wheel_of(scenario), at, drawbar);
-      },
-      py::arg("scenario"), py::arg("at"), py::arg("drawbar") = 0.0,
-      "Smallest slip above -0.5 at which the wheel pulls `drawbar` [N] on the slope of `at`; None where it can't.");
+  module.def("largest_pull", &compare::largest_pull, py::arg("scenario"), py::arg("at"),
+             "Largest drawbar pull over 0 <= slip <= 1; the slip of `at` is not read. Raises NoSolution where no slip "
+             "has a balance.");
+  module.def("slip_for_pull", &compare::slip_for_pull, py::arg("scenario"), py::arg("at"), py::arg("drawbar") = 0.0,
+             "Smallest slip above -0.5 at which the wheel pulls `drawbar` [N] on the slope of `at`, an Estimate; None "
+             "where it can't.");
   module.def(
       "steepest_slope",
       [](const Scenario& scenario, const OperatingCondition& at, double drawbar) {

@@ -76,6 +76,19 @@ class Answers(unittest.TestCase):
         again = pickle.loads(pickle.dumps(slope))
         self.assertEqual((again, again.std_error), (slope, slope.std_error))
 
+    def test_pulls_and_slips_of_limits_carry_the_commands_errors(self):
+        second = command("limits", "--tire", "rover-wheel", "--soil", "dry-sand", "--load", "64.68N")["rows"][0]["slopes"][1]
+        uphill = AT.replace(longitudinal_incline=second["longitudinal_incline"])
+        peak = bekker_wong.largest_pull(ROVER, uphill)
+        self.assertEqual((peak.drawbar_pull, peak.drawbar_pull_std_error, peak.slip),
+                         (second["largest_pull"], second["std_error"]["largest_pull"], second["slip_of_largest_pull"]))
+        slip = bekker_wong.slip_for_pull(ROVER, uphill)
+        self.assertEqual((slip, slip.std_error), (second["slip"], second["std_error"]["slip"]))
+        self.assertRegex(repr(peak), r"drawbar_pull=[0-9.]+ ± [0-9.]+ N")
+        near = bekker_wong.slip_for_pull(ROVER, uphill, peak.drawbar_pull - 0.1 * peak.drawbar_pull_std_error)
+        self.assertTrue(math.isnan(near.std_error))
+        self.assertRegex(repr(near), r"^0\.\d+$")
+
     def test_limits_take_a_condition_as_keywords_and_refuse_in_plain_words(self):
         self.assertEqual(bekker_wong.steepest_slope(ROVER, load=64.68), bekker_wong.steepest_slope(ROVER, AT))
         self.assertEqual(bekker_wong.slip_for_pull(ROVER, load=64.68), bekker_wong.slip_for_pull(ROVER, AT, 0.0))
@@ -110,7 +123,7 @@ class Answers(unittest.TestCase):
 
 
 class Warnings(unittest.TestCase):
-    WORDS = ("--soil", "sandy-loam", "--radius", "670mm", "--width", "430mm", "--inflation-pressure", "150kPa", "--load", "37.5kN", "--effect", "none")
+    WORDS = ("--soil", "sandy-loam", "--radius", "670mm", "--width", "430mm", "--inflation-pressure", "150kPa", "--load", "37.5kN")
 
     def setUp(self):
         self.wheel = soilbin.Scenario(soilbin.Tire(name="wheel", radius=0.67, width=0.43), "sandy-loam")
@@ -123,6 +136,26 @@ class Warnings(unittest.TestCase):
             soilbin.estimate(self.wheel, load=37.5e3, slip=0.2, inflation_pressure=150e3)
         self.assertEqual([str(one.message) for one in caught], known)
         self.assertTrue(all(one.category is soilbin.SoilbinWarning and one.filename == __file__ for one in caught))
+
+    def test_a_tire_with_a_pressure_is_flexible_or_rigid_as_the_commands(self):
+        pumped = dict(load=37.5e3, slip=0.2, inflation_pressure=150e3)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            wheel = soilbin.Scenario(self.wheel.tire.replace(inflation_pressure=150e3), "sandy-loam")
+            for words, rigid in ((), False), (("--rigid",), True):
+                pull = command("estimate", *self.WORDS, "--slip", "20%", *words)["rows"][0]["drawbar_pull"]
+                self.assertEqual(soilbin.estimate(wheel, load=37.5e3, slip=0.2, rigid=rigid).drawbar_pull.value, pull)
+                frame = soilbin.sweep(wheel, soilbin.conditions(load=37.5e3, slip=0.2), progress=None, rigid=rigid)
+                self.assertEqual(frame.drawbar_pull[0], pull)
+                explained = bekker_wong.explain(wheel, load=37.5e3, slip=0.2, rigid=rigid)
+                self.assertEqual(explained.result.drawbar_pull.value, pull)
+                slope = command("limits", *self.WORDS, *words)["rows"][0]["steepest_slope"]
+                self.assertEqual(bekker_wong.steepest_slope(wheel, load=37.5e3, rigid=rigid), slope)
+            with self.assertRaisesRegex(soilbin.InputError, "a rigid wheel has no inflation pressure"):
+                soilbin.estimate(self.wheel, rigid=True, **pumped)
+        model = soilbin.bekker_wong.BekkerWong().evaluate(wheel, AT.replace(load=37.5e3, slip=0.2))
+        self.assertEqual(model.drawbar_pull.value, command("estimate", *self.WORDS, "--slip", "20%", "--rigid")["rows"][0]["drawbar_pull"],
+                         "a model keeps to the declared effects")
 
     def test_a_frame_keeps_them(self):
         known = command("estimate", *self.WORDS, "--slip", "10%,20%")["warnings"]

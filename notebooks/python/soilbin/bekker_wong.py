@@ -11,6 +11,7 @@ from soilbin._soilbin import (
     Drive,
     DriveEnd,
     DriveRecord,
+    Estimate,
     Explanation,
     OperatingCondition,
     PlateCurve,
@@ -31,7 +32,7 @@ from soilbin._soilbin import (
     rolling_resistance,
 )
 from soilbin.progress import Progress, told_to
-from soilbin.questions import checked, one_condition
+from soilbin.questions import checked, one_condition, tell
 
 __all__ = [
     "BekkerWong", "Drive", "DriveEnd", "DriveRecord", "EstimatedFloat", "Explanation", "PlateCurve", "PlateExponent",
@@ -42,31 +43,6 @@ __all__ = [
 
 
 PULL_HINT = "the pull is drawbar=...; "
-
-
-def explain(scenario: Scenario, at: Optional[OperatingCondition] = None, **condition: Any) -> Explanation:
-    """The model's equations with their values: explain(wheel, load=80, slip=0.2). Keywords and errors as of estimate;
-    each step's value is in its own `unit`.
-    """
-    return _soilbin.explain(checked(scenario), one_condition(at, condition))
-
-
-def at_any_slip(at: Optional[OperatingCondition], condition: dict[str, Any], hint: str = "") -> OperatingCondition:
-    """As one_condition, for questions that do not read the slip: it may be left out."""
-    return one_condition(at, condition if at is not None else {"slip": 0.0, **condition}, hint)
-
-
-def largest_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, **condition: Any) -> PullPeak:
-    """Largest drawbar pull [N] over 0 <= slip <= 1, and its slip [-]: largest_pull(wheel, load=80). The slip of `at` is
-    not read. Keywords as of estimate. Raises NoSolution where no slip has a balance.
-    """
-    return _soilbin.largest_pull(checked(scenario), at_any_slip(at, condition))
-
-
-def slip_for_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, drawbar: float = 0.0,
-                  **condition: Any) -> Optional[float]:
-    """Smallest slip [-] above -0.5 at which the wheel pulls `drawbar` [N] on the slope of `at`; None where it can't."""
-    return _soilbin.slip_for_pull(checked(scenario), at_any_slip(at, condition, PULL_HINT), drawbar)
 
 
 class EstimatedFloat(float):
@@ -88,19 +64,67 @@ class EstimatedFloat(float):
         return EstimatedFloat, (self.value, self.std_error)
 
     def __repr__(self) -> str:
-        return str(_soilbin.Estimate(self.value, self.std_error))
+        return str(_soilbin.Estimate(self.value, self.std_error if self.std_error >= 0 else 0.0))
 
     __str__ = __repr__
 
 
-def steepest_slope(scenario: Scenario, at: Optional[OperatingCondition] = None, drawbar: float = 0.0,
-                   **condition: Any) -> Optional[EstimatedFloat]:
+def as_asked(scenario: Scenario, at: OperatingCondition, rigid: bool) -> Scenario:
+    """The scenario as the commands ask it: flexible where the tire declares a pressure, or rigid; warns of that."""
+    asked, notes = _soilbin.as_asked(checked(scenario), [at], rigid)
+    tell(notes, stacklevel=4)
+    return asked
+
+
+def explain(scenario: Scenario, at: Optional[OperatingCondition] = None, *, rigid: bool = False,
+            **condition: Any) -> Explanation:
+    """The model's equations with their values: explain(wheel, load=80, slip=0.2). Keywords, `rigid` and errors as of
+    estimate; each step's value is in its own `unit`.
+    """
+    asked = one_condition(at, condition)
+    return _soilbin.explain(as_asked(scenario, asked, rigid), asked)
+
+
+def at_any_slip(at: Optional[OperatingCondition], condition: dict[str, Any], hint: str = "") -> OperatingCondition:
+    """As one_condition, for questions that do not read the slip: it may be left out."""
+    return one_condition(at, condition if at is not None else {"slip": 0.0, **condition}, hint)
+
+
+def estimated(found: Optional[Estimate]) -> Optional[EstimatedFloat]:
+    """An Estimate as a float with its standard error."""
+    return None if found is None else EstimatedFloat(found.value, found.std_error)
+
+
+def largest_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, *, rigid: bool = False,
+                 **condition: Any) -> PullPeak:
+    """Largest drawbar pull [N] over 0 <= slip <= 1, with its standard error, and its slip [-]:
+    largest_pull(wheel, load=80). The slip of `at` is not read. Keywords and `rigid` as of estimate. Raises NoSolution
+    where no slip has a balance.
+    """
+    asked = at_any_slip(at, condition)
+    return _soilbin.largest_pull(as_asked(scenario, asked, rigid), asked)
+
+
+def slip_for_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, drawbar: float = 0.0, *,
+                  rigid: bool = False, **condition: Any) -> Optional[EstimatedFloat]:
+    """Smallest slip [-] above -0.5 at which the wheel pulls `drawbar` [N] on the slope of `at`; None where it can't.
+
+    A float with its standard error (`std_error`, to first order from the soil's standard deviations): NaN where one
+    standard error of the soil makes the pull one that the wheel does not reach. `rigid` as in estimate.
+    """
+    asked = at_any_slip(at, condition, PULL_HINT)
+    return estimated(_soilbin.slip_for_pull(as_asked(scenario, asked, rigid), asked, drawbar))
+
+
+def steepest_slope(scenario: Scenario, at: Optional[OperatingCondition] = None, drawbar: float = 0.0, *,
+                   rigid: bool = False, **condition: Any) -> Optional[EstimatedFloat]:
     """Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N]; None beyond -60 .. 80 deg.
 
-    A float with its standard error (`std_error`, to first order from the soil's standard deviations).
+    A float with its standard error (`std_error`, to first order from the soil's standard deviations). `rigid` as in
+    estimate.
     """
-    found = _soilbin.steepest_slope(checked(scenario), at_any_slip(at, condition, PULL_HINT), drawbar)
-    return None if found is None else EstimatedFloat(found.value, found.std_error)
+    asked = at_any_slip(at, condition, PULL_HINT)
+    return estimated(_soilbin.steepest_slope(as_asked(scenario, asked, rigid), asked, drawbar))
 
 
 def drive_wheel(scenario: Scenario, drive: Optional[Drive], samples: int = 400,

@@ -46,12 +46,18 @@ class SoilbinWarning(UserWarning):
     """
 
 
-def warned(scenario: Scenario, answers: Sequence[Answer], stacklevel: int = 3) -> list[str]:
-    """Warns of what is doubtful in these answers of the analytic model; gives the sentences."""
-    said = _soilbin.doubts_of(scenario, answers)
-    for sentence in said:
-        warnings.warn(sentence, SoilbinWarning, stacklevel=stacklevel)
+def warned(scenario: Scenario, answers: Sequence[Answer], stacklevel: int = 3,
+           notes: Sequence[str] = ()) -> list[str]:
+    """Warns of the notes and of what is doubtful in these answers of the analytic model; gives the sentences."""
+    said = [*notes, *_soilbin.doubts_of(scenario, answers)]
+    tell(said, stacklevel + 1)
     return said
+
+
+def tell(sentences: Sequence[str], stacklevel: int = 3) -> None:
+    """Each as a SoilbinWarning of the line that called the caller."""
+    for sentence in sentences:
+        warnings.warn(sentence, SoilbinWarning, stacklevel=stacklevel)
 
 
 def checked(scenario: Scenario) -> Scenario:
@@ -83,7 +89,8 @@ def names(shelf: Union[Shelf, str]) -> list[str]:
     return _soilbin.names(getattr(Shelf, shelf))
 
 
-def estimate(scenario: Scenario, at: Optional[OperatingCondition] = None, **condition: Any) -> TractionResult:
+def estimate(scenario: Scenario, at: Optional[OperatingCondition] = None, *, rigid: bool = False,
+             **condition: Any) -> TractionResult:
     """The analytic model's answer at one condition: estimate(wheel, load=80, slip=0.2).
 
     Keywords set or change attributes of the condition, in SI: load [N] > 0, slip [-] in -1 .. 1 (0.2 is 20 %), speed
@@ -91,43 +98,55 @@ def estimate(scenario: Scenario, at: Optional[OperatingCondition] = None, **cond
     [N m], sinkage [m] and lateral_force [N], each with value and std_error, tractive_efficiency [-], and the arrays of
     `patch`, of shape (nodes,). Raises InputError for what is refused, NoSolution where the wheel would bury itself.
     Warns (SoilbinWarning) as the command does.
+
+    A tire that declares an inflation pressure, or a condition that does, is flexible where it flattens: the answer is
+    that of the effect tire_flexibility, where no effect names it, as the command's. rigid: of the rigid wheel, whatever
+    pressure the tire declares. BekkerWong().evaluate keeps to the scenario's effects.
     """
-    result = BekkerWong().evaluate(checked(scenario), one_condition(at, condition))
-    warned(scenario, [_soilbin.answer_of(result)])
+    asked = one_condition(at, condition)
+    scenario, notes = _soilbin.as_asked(checked(scenario), [asked], rigid)
+    result = BekkerWong().evaluate(scenario, asked)
+    warned(scenario, [_soilbin.answer_of(result)], notes=notes)
     return result
 
 
 def sweep(scenario: Scenario, at: Iterable[OperatingCondition], model: Optional[Model] = None,
-          progress: Progress = "shown") -> pd.DataFrame:
+          progress: Progress = "shown", *, rigid: bool = False) -> pd.DataFrame:
     """A model's answers, a row a condition (the analytic model where none is given).
 
     Columns: the condition, the four channels with NAME_std_error, tractive_efficiency, the three angles of the contact,
     budget_NAME for each part of the pull, error ('' where there is a result). SI and radians. A condition without
     solution is a row of NaN with its error. Of the analytic model's answers it warns (SoilbinWarning) as the command
-    does; the sentences are kept in the frame's attrs["warnings"].
+    does; the sentences are kept in the frame's attrs["warnings"]. A tire with an inflation pressure is flexible or
+    `rigid` as in estimate where no model is given; a given one keeps to the scenario's effects.
     """
-    return swept(scenario, at, model, progress)
+    asked = list(at)
+    if model is not None:
+        return swept(scenario, asked, model, progress)
+    scenario, notes = _soilbin.as_asked(checked(scenario), asked, rigid)
+    return swept(scenario, asked, model, progress, notes)
 
 
 def swept(scenario: Scenario, at: Iterable[OperatingCondition], model: Optional[Model],
-          progress: Progress) -> pd.DataFrame:
-    """What sweep gives; its warnings are said of the line that called the caller."""
+          progress: Progress, notes: Sequence[str] = ()) -> pd.DataFrame:
+    """What sweep gives, of the scenario's own effects; its warnings are said of the line that called the caller."""
     answers = _soilbin.answers(model or BekkerWong(patch=False), checked(scenario), list(at), told_to(progress))
     frame = answers_frame(answers)
     if model is None or isinstance(model, BekkerWong):
-        frame.attrs["warnings"] = warned(scenario, answers, stacklevel=4)
+        frame.attrs["warnings"] = warned(scenario, answers, stacklevel=4, notes=notes)
     return frame
 
 
-def run_study(case: Union[Case, str], progress: Progress = "shown") -> pd.DataFrame:
+def run_study(case: Union[Case, str], progress: Progress = "shown", *, rigid: bool = False) -> pd.DataFrame:
     """The answers of a study's analytic models as sweep gives them, with a first column `model`.
 
     case: a Case, the name of a study in the library, or the path of a YAML file. Grains take minutes a condition: ask
-    soilbin.dem.SoilBin for them.
+    soilbin.dem.SoilBin for them. A tire with an inflation pressure is flexible or `rigid` as in estimate.
     """
-    question = _soilbin.find_case(case) if isinstance(case, str) else case
+    question, notes = _soilbin.as_asked(_soilbin.find_case(case) if isinstance(case, str) else case, rigid)
+    tell(notes)
     frames: list[pd.DataFrame] = []
-    said: list[str] = []
+    said: list[str] = list(notes)
     for choice in question.study.models:
         if choice.model == ModelKind.bekker_wong:
             scenario = question.scenario.with_effects(choice.effects)
