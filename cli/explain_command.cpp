@@ -5,57 +5,51 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/outputs.hpp"
 #include "cli/question.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/sweep/answer_tables.hpp"
-#include "compare/sweep/explanation.hpp"
 #include "compare/sweep/sources.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/answer_report.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {
 namespace {
 
-using compare::Explanation;
-
-void print_text(const ModelChoice& choice, const Explanation& explanation, const OperatingCondition& at) {
-  fmt::print("{}", compare::answer_text({choice, {}}, {at, explanation.result, ""}));
-  fmt::print("\nBudget of forces along the drawbar pull\n{}", as_text(compare::forces_table(explanation.result)));
-  fmt::print("{}", compare::in_words(explanation));
-}
-
-int explain(const Question& inputs, const RigidFlag& rigid, bool json, const Session& session) {
+int explain(const Question& inputs, const RigidFlag& rigid, const OutputFlags& asked, const Session& session) {
   Case question = inputs.ask(session.place);
   constexpr std::size_t most = 20;
   if (question.study.conditions.size() > most)
     throw InputError(fmt::format("{} conditions are too many to explain; pick one with --load, --slip, ...",
                                  question.study.conditions.size()));
   std::vector<std::string> notes = rigid.apply(question, inputs.switches_effects_off());
+  const std::string heading =
+      fmt::format("{} on {}", compare::tire_in_words(question), compare::in_words(question.scenario.soil));
+  compare::Report report{"Why: " + heading, question.description, heading};
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  if (!json) fmt::print("{} on {}\n\n", compare::tire_in_words(question), compare::in_words(question.scenario.soil));
-  bool first = true;
   std::vector<compare::ModelAnswers> answered;
   for (const ModelChoice& choice : question.study.models) {
     if (choice.model != ModelKind::bekker_wong) compare::make_model(choice.model);
     const Scenario scenario = seen_by(choice, question.scenario);
     for (const OperatingCondition& at : question.study.conditions) {
-      const Explanation explanation = compare::explain(scenario, at);
-      if (json)
-        rows.push_back(to_json(explanation, choice, at));
-      else
-        fmt::print("{}", first ? "" : "\n"), print_text(choice, explanation, at);
-      first = false;
+      const compare::Explanation explanation = compare::explain(scenario, at);
+      rows.push_back(to_json(explanation, choice, at));
+      for (compare::ReportPart& part : compare::explanation_parts(choice, at, explanation))
+        report.parts.push_back(std::move(part));
       answered.push_back({choice, {{at, explanation.result, ""}}});
     }
   }
-  if (!json) fmt::print("\nWhere the values come from\n{}", as_text(compare::sources_table(question.scenario)));
-  const std::vector<std::string> doubts = tell_doubts(std::move(notes), question, answered);
-  if (!json) return done;
-  nlohmann::ordered_json document = document_of("soilbin-explain/1", question, rows, session.place.effects);
-  document["sources"] = compare::sources_json(question.scenario);
-  print_json(document, doubts);
-  return done;
+  Table sources = compare::sources_table(question.scenario);
+  sources.caption = "Where the values come from";
+  report.add(std::move(sources));
+  report.resolved_case = write_case(question, session.place.effects);
+  report.data = [&] {
+    nlohmann::ordered_json document = document_of("soilbin-explain/1", question, rows, session.place.effects);
+    document["sources"] = compare::sources_json(question.scenario);
+    return document;
+  };
+  return publish(report, asked, joined_doubts(std::move(notes), question, answered), session).status(done);
 }
 
 }  // namespace
@@ -66,11 +60,11 @@ void add_explain(CLI::App& app, Session& session) {
   const auto inputs = std::make_shared<Question>(*command);
   const auto rigid = std::make_shared<RigidFlag>();
   rigid->add_to(*command);
-  const auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "as JSON");
+  const auto outputs = std::make_shared<OutputFlags>();
+  outputs->add_to(*command, {.json = "as JSON"});
   command->footer("Example: soilbin explain --soil dry-sand --tire rover-wheel --load 65N --slip 20%");
   command->callback(
-      [=, &session] { session.action = [=, &session] { return explain(*inputs, *rigid, *json, session); }; });
+      [=, &session] { session.action = [=, &session] { return explain(*inputs, *rigid, *outputs, session); }; });
 }
 
 }  // namespace soilbin::cli

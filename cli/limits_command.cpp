@@ -9,18 +9,14 @@
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/question.hpp"
-#include "cli/text_output.hpp"
-#include "compare/doubts/doubts.hpp"
-#include "compare/sweep/varying.hpp"
-#include "compare/sweep/wheel_limits.hpp"
+#include "compare/telling/limits_report.hpp"
 
 namespace soilbin::cli {
 namespace {
 
 struct LimitsOptions {
-  bool json = false;
-  CsvOutput csv;
-  std::string plot, max_slip;
+  OutputFlags outputs;
+  std::string max_slip;
   RigidFlag rigid;
 };
 
@@ -35,20 +31,13 @@ int limits(const Question& inputs, const LimitsOptions& options, const Session& 
   std::vector<std::string> notes = options.rigid.apply(question, inputs.switches_effects_off());
   const std::vector<compare::WheelLimits> answers = compare::limits_of(question, max_slip_of(options));
   const std::vector<compare::ModelAnswers> at_limits = compare::answers_at_limits(question, answers);
-  const std::vector<std::string> doubts = tell_doubts(std::move(notes), question, at_limits);
-  Outputs outputs;
-  outputs.csv(options.csv,
-              [&] { return compare::limits_csv(answers, at_limits, compare::remarks_about(question.scenario)); });
-  outputs.drawing(options.plot, [&] { return compare::limits_sheet(question, answers); });
-  if (options.json) {
-    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-    for (const compare::WheelLimits& answer : answers) rows.push_back(to_json(answer));
-    print_json(document_of("soilbin-limits/1", question, rows, session.place.effects), doubts);
-  } else {
-    fmt::print("{} on {}\n{}\n", compare::tire_in_words(question), compare::in_words(question.scenario.soil),
-               compare::errors_in_words(question));
-    for (const compare::WheelLimits& answer : answers) fmt::print("\n{}", in_words(answer));
-  }
+  compare::Report report = compare::report_on(question, answers, at_limits);
+  report.data = [&] {
+    return document_of("soilbin-limits/1", question, compare::limits_rows(answers), session.place.effects);
+  };
+  report.resolved_case = write_case(question, session.place.effects);
+  const Outputs outputs =
+      publish(report, options.outputs, joined_doubts(std::move(notes), question, at_limits), session);
   for (const compare::WheelLimits& answer : answers)
     if (answer.error.empty()) return outputs.status(done);
   fmt::print(stderr, "soilbin: no solution: {}\n", answers.front().error);
@@ -63,13 +52,13 @@ void add_limits(CLI::App& app, Session& session) {
                                                  std::vector<std::string>{"slip", "longitudinal_incline"});
   const auto options = std::make_shared<LimitsOptions>();
   options->rigid.add_to(*command);
-  add_plot(*command, options->plot, "draw the largest pull and the slips against the slope");
-  add_csv(*command, options->csv, "save the table");
   command
       ->add_option("--max-slip", options->max_slip,
                    "slip up to which the wheel may climb, beside the theoretical limit (20 %)")
       ->type_name("%");
-  command->add_flag("--json", options->json, "soilbin-limits/1, in SI");
+  options->outputs.add_to(*command, {.json = "soilbin-limits/1, in SI",
+                                     .plot = "draw the largest pull and the slips against the slope",
+                                     .csv = "save the table"});
   command->footer(
       "Where a load has no solution, its line gives the reason; the status is 1 where none has one.\n"
       "Example: soilbin limits --tire rover-wheel --soil dry-sand --load 64.68N");

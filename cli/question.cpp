@@ -120,10 +120,9 @@ EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocab
 
 }  // namespace
 
-std::vector<std::string> tell_doubts(std::vector<std::string> notes, const Case& question,
-                                     const std::vector<compare::ModelAnswers>& study) {
+std::vector<std::string> joined_doubts(std::vector<std::string> notes, const Case& question,
+                                       const std::vector<compare::ModelAnswers>& study) {
   std::ranges::copy(compare::doubts(question, study), std::back_inserter(notes));
-  print_warnings(notes);
   return notes;
 }
 

@@ -85,9 +85,9 @@ class RigidFlag {
   bool rigid_ = false;
 };
 
-/// Prints the notes and what is doubtful in the answers as warnings; returns them all, for a document.
-std::vector<std::string> tell_doubts(std::vector<std::string> notes, const Case& question,
-                                     const std::vector<compare::ModelAnswers>& study);
+/// The notes, then what is doubtful in the answers.
+std::vector<std::string> joined_doubts(std::vector<std::string> notes, const Case& question,
+                                       const std::vector<compare::ModelAnswers>& study);
 
 /// --soil where the analytic wheel is set beside grains: its values are that soil's, the grains stay the study's.
 class AnalyticSoil {

@@ -16,8 +16,8 @@
 #include "compare/experiments/run_plan.hpp"
 #include "compare/experiments/study_results.hpp"
 #include "compare/sweep/answer_sheets.hpp"
-#include "compare/sweep/answer_tables.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/answer_report.hpp"
 #include "scenario/atomic_file.hpp"
 
 namespace soilbin::cli {
@@ -193,7 +193,8 @@ void print_text(const Case& question, const compare::StudyResults& answered) {
              asks(question.study, ModelKind::bekker_wong)
                  ? compare::errors_in_words(question) + "\n"
                  : "",  // grains say beside their answer where their errors come from
-             answered.step ? compare::in_words(*answered.step) : "", compare::study_text(answered.study));
+             answered.step ? compare::in_words(*answered.step) : "",
+             text_of(compare::Report{.title = "", .subtitle = "", .parts = compare::study_parts(answered.study)}));
   if (const std::string notes = compare::notes_on(answered.runs); !notes.empty())
     fmt::print("\n{}{}", notes, compare::relative_density_of(answered.runs, question.scenario.soil, folder_of_beds()));
 }

@@ -12,7 +12,7 @@
 #include "compare/report/number_text.hpp"
 #include "compare/report/plot.hpp"
 #include "compare/sweep/answer_sheets.hpp"
-#include "compare/sweep/answer_tables.hpp"
+#include "compare/telling/answer_report.hpp"
 #include "compare/sweep/wheel_limits.hpp"
 #include "scenario/unit.hpp"
 

@@ -311,28 +311,7 @@ Json steps_json(const std::vector<Step>& steps) {
   return all;
 }
 
-std::string steps_in_words(const std::string& heading, const std::vector<Step>& steps) {
-  if (steps.empty()) return "";
-  std::string text = fmt::format("\n{}\n", heading);
-  for (const Step& step : steps) {
-    text += fmt::format("  {}\n      {}\n", step.name, step.equation);
-    text += step.unit == "SI"  // an effect's parameters
-                ? fmt::format("      with {}\n", step.numbers)
-                : fmt::format("      = {} = {}{}\n", step.numbers, number(step.value), unit_behind(step.unit));
-    if (!step.remark.empty()) text += fmt::format("      ({})\n", step.remark);
-  }
-  return text;
-}
-
 }  // namespace
-
-std::string in_words(const Explanation& explanation) {
-  return steps_in_words(explanation.effects.empty() ? "Equations with their values"
-                                                    : "Base-model equations; effects change only the soil values shown",
-                        explanation.steps) +
-         steps_in_words("Effects", explanation.effects) +
-         steps_in_words("Closed-form checks (no balance, no effects)", explanation.cross_checks);
-}
 
 Json to_json(const Explanation& explanation, const ModelChoice& choice, const OperatingCondition& at) {
   Json row = {{"model", "bekker_wong"}, {"label", choice.label}};

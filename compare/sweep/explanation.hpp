@@ -30,9 +30,6 @@ struct Explanation {
 /// Explains one condition. Throws InputError and NoSolution as the model does.
 Explanation explain(const Scenario& scenario, const OperatingCondition& at);
 
-/// The equations with their values, the effects and the closed forms, each part under its heading.
-std::string in_words(const Explanation& explanation);
-
 /// A row of soilbin-explain/1: the answer, then its equations, effects and closed forms.
 Json to_json(const Explanation& explanation, const ModelChoice& choice, const OperatingCondition& at);
 

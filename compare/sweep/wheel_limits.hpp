@@ -1,7 +1,7 @@
 // What a wheel can do at best in a steady state, slope by slope: the largest pull, the slip that climbs, the steepest
-// slope; as text, JSON, CSV and a sheet.
+// slope.
 //
-//   for (const WheelLimits& limits : limits_of(question)) fmt::print("{}", in_words(limits));
+//   for (const WheelLimits& limits : limits_of(question)) limits.steepest;
 #pragma once
 
 #include <optional>
@@ -9,10 +9,7 @@
 #include <vector>
 
 #include "bekker_wong/limits.hpp"
-#include "compare/report/json_fields.hpp"
-#include "compare/report/plot.hpp"
 #include "compare/sweep/answers.hpp"
-#include "compare/sweep/result_json.hpp"
 
 namespace soilbin::compare {
 
@@ -86,15 +83,7 @@ std::optional<double> carried_load(const Case& question);
 /// slip; nothing where there is none or the soil is known by its grains alone.
 std::optional<double> steepest_slope(const Case& question);
 
-/// A table over the slopes and what the steepest one is.
-std::string in_words(const WheelLimits& answer);
-/// A row of soilbin-limits/1.
-Json to_json(const WheelLimits& answer);
-/// A row a slope; `at_limits`: answers_at_limits of the same answers, to which each row's remark belongs.
-std::string limits_csv(const std::vector<WheelLimits>& answers, const std::vector<ModelAnswers>& at_limits,
-                       const Remark& remark);
-/// Largest pull against the slope with its standard error, and the slips, at more slopes than the answers hold: a
-/// colour for each model and load.
-Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& answers);
+/// The answers at more slopes, for a drawing; one without an answer stays as it is.
+std::vector<WheelLimits> at_more_slopes(const Scenario& scenario, const std::vector<WheelLimits>& answers);
 
 }  // namespace soilbin::compare

@@ -7,12 +7,12 @@
 
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answer_sheets.hpp"
-#include "compare/sweep/answer_tables.hpp"
 #include "compare/sweep/answers_page.hpp"
 #include "compare/sweep/explanation.hpp"
 #include "compare/sweep/prediction.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/answer_report.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 #include "tests/fixtures.hpp"
@@ -63,7 +63,7 @@ TEST(Sweep, ATableHasOneBlockForEachCurve) {
   ModelAnswers model{{ModelKind::bekker_wong, {}, "linear"}, {}};
   for (const double slip : {0.1, 0.2})
     for (const double load : {100.0, 50.0}) model.answers.push_back({condition(load, slip), TractionResult{}, ""});
-  const std::string text = study_text({model});
+  const std::string text = text_of({.title = "", .subtitle = "", .parts = study_parts({model})});
   std::vector<std::size_t> places;
   for (const char* row : {" 50 N        10", " 50 N        20", "100 N        10", "100 N        20"})
     places.push_back(text.find(row));

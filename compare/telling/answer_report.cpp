@@ -1,0 +1,225 @@
+#include "compare/telling/answer_report.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include "compare/doubts/doubts.hpp"
+#include "compare/measured/channels.hpp"
+#include "compare/report/number_text.hpp"
+#include "compare/report/table.hpp"
+#include "compare/sweep/answer_sheets.hpp"
+#include "compare/sweep/model_names.hpp"
+#include "compare/sweep/result_json.hpp"
+#include "compare/sweep/varying.hpp"
+#include "scenario/nearest_word.hpp"
+#include "scenario/unit.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+std::vector<OperatingCondition> conditions_answered(const std::vector<Answer>& answers) {
+  std::vector<OperatingCondition> all;
+  for (const Answer& answer : answers) all.push_back(answer.at);
+  return all;
+}
+
+bool any_side_force(const std::vector<ModelAnswers>& study) {
+  for (const ModelAnswers& model : study)
+    for (const Answer& answer : model.answers)
+      if (answer.result && answer.result->lateral_force.value != 0.0) return true;
+  return false;
+}
+
+/// The places of the conditions, one curve after the other, each in its own order.
+std::vector<std::size_t> curve_by_curve(const Curves& curves) {
+  std::vector<std::size_t> order(curves.curve_of.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return curves.curve_of[i]; });
+  return order;
+}
+
+/// In percent; "-" where there is none (has_efficiency).
+std::string efficiency_in_percent(const TractionResult& result) {
+  return has_efficiency(result) ? number(100 * result.tractive_efficiency) : "-";
+}
+
+/// Why a pull of the analytic model at 0 % slip on the level is not 0, which readers expect; none where there is none.
+std::vector<std::string> pull_without_slip(const ModelAnswers& model) {
+  const bool there =
+      model.choice.model == ModelKind::bekker_wong && std::ranges::any_of(model.answers, [](const Answer& answer) {
+        return answer.result && std::abs(answer.at.slip) < 1e-9 && answer.at.longitudinal_incline == 0.0;
+      });
+  if (!there) return {};
+  return {"At 0 % slip (v = r ω) the soil is still compacted and sheared along the contact, so the pull is not 0."};
+}
+
+/// "load 65 N" where all conditions have one load, "" for several, which the rows and curves tell apart.
+std::string only_load(const std::vector<OperatingCondition>& conditions) {
+  const double load = conditions.front().load;
+  return std::ranges::all_of(conditions, [&](const OperatingCondition& at) { return at.load == load; })
+             ? fmt::format("load {:.6g} N", load)
+             : "";
+}
+
+/// "rover-wheel on dry-sand, load 65 N, slip 20 %": with what all conditions share.
+std::string title_of(const Case& question) {
+  std::string title = fmt::format("{} on {}", question.scenario.tire.name, in_words(question.scenario.soil));
+  const std::vector<OperatingCondition>& all = question.study.conditions;
+  if (const std::string load = only_load(all); !load.empty()) title += ", " + load;
+  const double slip = all.front().slip;
+  if (std::ranges::all_of(all, [&](const OperatingCondition& at) { return at.slip == slip; }))
+    title += fmt::format(", slip {:.4g} %", 100 * slip);
+  return title;
+}
+
+/// Of each model at its only condition.
+Sheet stresses_of(const std::vector<ModelAnswers>& study) {
+  std::vector<LabelledPatch> patches;
+  for (const ModelAnswers& model : study)
+    if (const auto& result = model.answers.front().result)
+      patches.push_back({model_in_words(model.choice.label), static_cast<int>(patches.size()), result->patch});
+  return patch_sheet("", patches);
+}
+
+std::string steps_text(const std::vector<Step>& steps) {
+  std::string text;
+  for (const Step& step : steps) {
+    text += fmt::format("  {}\n      {}\n", step.name, step.equation);
+    text += step.unit == "SI"  // an effect's parameters
+                ? fmt::format("      with {}\n", step.numbers)
+                : fmt::format("      = {} = {}{}\n", step.numbers, number(step.value), unit_behind(step.unit));
+    if (!step.remark.empty()) text += fmt::format("      ({})\n", step.remark);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<PrintedValue> printed_values(const TractionResult& r) {
+  std::vector<PrintedValue> all;
+  for (const ChannelView& channel : channel_views)
+    all.push_back(
+        {capital(std::string(channel.title)), number(r.*channel.predicted, channel.per_si), std::string(channel.unit)});
+  const std::string none = why_no_efficiency(r);
+  all.push_back(
+      {"Tractive efficiency", none.empty() ? efficiency_in_percent(r) : "none: " + none, none.empty() ? "%" : ""});
+  all.push_back({"Contact",
+                 fmt::format("entry {:.1f} deg, peak stress {:.1f} deg, exit {:.1f} deg", r.entry_angle / degree,
+                             r.max_stress_angle / degree, r.exit_angle / degree + 0.0),
+                 ""});
+  std::string sum;
+  for (const Contribution& part : r.budget) {
+    const std::string sign = sum.empty() ? (part.force < 0 ? "-" : "") : (part.force < 0 ? " - " : " + ");
+    sum += fmt::format("{}{} N ({})", sign, number(std::abs(part.force)), spaced(part.name));
+  }
+  if (const BudgetRest& rest = r.budget_rest; std::abs(rest.force) > 1e-9 * r.at.load)
+    sum +=
+        fmt::format("; {} N unexplained{}", number(rest.force),
+                    std::isfinite(rest.bound) ? fmt::format(" (sampling error: up to {} N)", number(rest.bound)) : "");
+  all.push_back({"Drawbar pull is", sum, ""});
+  if (!r.without_error_of.empty())
+    all.push_back(
+        {"Standard errors",
+         fmt::format("leave out the soil's {}: the results have no derivative by it here", listed(r.without_error_of)),
+         ""});
+  return all;
+}
+
+std::vector<ReportPart> answer_parts(const ModelAnswers& model, const Answer& answer) {
+  std::vector<ReportPart> parts;
+  if (!answer.result) {
+    parts.push_back({Sentences(std::vector<BackedSentence>{
+        {model.choice.label, fmt::format("{}: no solution: {}", in_words(answer.at), answer.error)}})});
+    return parts;
+  }
+  parts.push_back({Sentences(std::vector<BackedSentence>{{model.choice.label, in_words(answer.at)}})});
+  NamedValues values;
+  for (const PrintedValue& one : printed_values(*answer.result))
+    values.all.emplace_back(one.name, one.value + (one.unit.empty() ? "" : " " + one.unit));
+  parts.push_back({std::move(values)});
+  parts.push_back({Sentences(pull_without_slip({model.choice, {answer}, {}}))});
+  return parts;
+}
+
+std::vector<ReportPart> study_parts(const std::vector<ModelAnswers>& study) {
+  const bool side = any_side_force(study);
+  std::vector<ReportPart> parts;
+  for (const ModelAnswers& model : study) {
+    const Curves curves = curves_against_slip(conditions_answered(model.answers), Spread::exact);
+    std::vector<std::string> header;
+    if (!curves.varying.empty()) header.push_back(curves.varying);
+    header.push_back("slip [%]");
+    for (std::size_t c = 0; c < channel_views.size(); ++c)
+      if (side || !channel_views[c].sideways)
+        header.push_back(heading(std::string(channel_views[c].title), std::string(channel_views[c].unit)));
+    header.push_back("efficiency [%]");
+    Table table{model.choice.label, header};
+    std::vector<std::string> unsolved;
+    for (const std::size_t i : curve_by_curve(curves)) {
+      const Answer& answer = model.answers[i];
+      std::vector<TableCell> row;
+      if (!curves.varying.empty()) row.push_back(curves.labels[curves.curve_of[i]]);
+      row.push_back(fmt::format("{:.4g}", 100 * answer.at.slip));
+      for (const ChannelView& channel : channel_views)
+        if (side || !channel.sideways)
+          row.push_back(answer.result ? number((*answer.result).*channel.predicted, channel.per_si) : "-");
+      row.push_back(answer.result ? efficiency_in_percent(*answer.result) : "-");
+      table.add(std::move(row));
+      if (!answer.result) unsolved.push_back(fmt::format("no solution at {}: {}", in_words(answer.at), answer.error));
+    }
+    parts.push_back({std::move(table)});
+    if (!unsolved.empty()) parts.push_back({Sentences(unsolved)});
+  }
+  if (!study.empty()) parts.push_back({Sentences(pull_without_slip(study.front()))});
+  return parts;
+}
+
+Report report_on(const Case& question, const std::vector<ModelAnswers>& study) {
+  Report report{title_of(question), question.description,
+                fmt::format("{} on {}\n{}", tire_in_words(question), in_words(question.scenario.soil),
+                            errors_in_words(question))};
+  const bool several = question.study.conditions.size() > 1;
+  if (const std::string load = only_load(question.study.conditions); several && !load.empty())
+    report.add(Sentences(std::vector{load}), Told::on_terminals);
+  std::vector<ReportPart> parts;
+  if (several) {
+    parts = study_parts(study);
+  } else {
+    for (const ModelAnswers& model : study)
+      for (ReportPart& part : answer_parts(model, model.answers.front())) parts.push_back(std::move(part));
+  }
+  report.parts.insert(report.parts.end(), std::make_move_iterator(parts.begin()), std::make_move_iterator(parts.end()));
+  report.sheet = [&] {
+    Sheet sheet = plot_of_study(question, study);
+    sheet.title = title_of(question);
+    return sheet;
+  };
+  if (several && curves_run_over(question.study.conditions) != nullptr)
+    report.add("Curves", Figure(report.sheet, "Bands: one standard error."));
+  if (!several) report.add("Stresses under the wheel", Figure([&] { return stresses_of(study); }, ""));
+  report.csv = [&] { return study_csv(study, remarks_about(question.scenario)); };
+  return report;
+}
+
+std::vector<ReportPart> explanation_parts(const ModelChoice& choice, const OperatingCondition& at,
+                                          const Explanation& explanation) {
+  std::vector<ReportPart> parts = answer_parts({choice, {}, {}}, {at, explanation.result, ""});
+  Table forces = forces_table(explanation.result);
+  forces.caption = "Budget of forces along the drawbar pull";
+  parts.push_back({std::move(forces)});
+  const auto add = [&](const char* heading, const std::vector<Step>& steps) {
+    if (!steps.empty()) parts.push_back({Code{std::string(heading) + "\n" + steps_text(steps)}});
+  };
+  add(explanation.effects.empty() ? "Equations with their values"
+                                  : "Base-model equations; effects change only the soil values shown",
+      explanation.steps);
+  add("Effects", explanation.effects);
+  add("Closed-form checks (no balance, no effects)", explanation.cross_checks);
+  return parts;
+}
+
+}  // namespace soilbin::compare
