@@ -48,6 +48,8 @@ class LugPattern:
     """How the lugs run across the tread."""
     straight: ClassVar[LugPattern]
     chevron: ClassVar[LugPattern]
+    slanted: ClassVar[LugPattern]
+    staggered: ClassVar[LugPattern]
     def __init__(self, value: int) -> None: ...
     def __int__(self) -> int: ...
     @property
@@ -64,7 +66,7 @@ class Lugs:
     def height(self, value: float) -> None: ...
     @property
     def count(self) -> Optional[int]:
-        """number around the circumference [-], at least 1"""
+        """number around the circumference; staggered: on each side [-], at least 1"""
     @count.setter
     def count(self, value: Optional[int]) -> None: ...
     @property
@@ -77,9 +79,14 @@ class Lugs:
         """how the lugs run across the tread"""
     @pattern.setter
     def pattern(self, value: LugPattern) -> None: ...
-    def __init__(self, *, height: float, count: Optional[int] = ..., thickness: Optional[float] = ..., pattern: LugPattern = ...) -> None:
+    @property
+    def angle(self) -> Optional[float]:
+        """between a bar and the axle; absent: 0.5 rad, and 0 of straight bars [rad], 0 rad .. 1.2 rad"""
+    @angle.setter
+    def angle(self, value: Optional[float]) -> None: ...
+    def __init__(self, *, height: float, count: Optional[int] = ..., thickness: Optional[float] = ..., pattern: LugPattern = ..., angle: Optional[float] = ...) -> None:
         """By keywords: the attributes, in SI."""
-    def replace(self, *, height: float = ..., count: Optional[int] = ..., thickness: Optional[float] = ..., pattern: LugPattern = ...) -> Lugs:
+    def replace(self, *, height: float = ..., count: Optional[int] = ..., thickness: Optional[float] = ..., pattern: LugPattern = ..., angle: Optional[float] = ...) -> Lugs:
         """A copy in which the attributes given are changed."""
 
 class Tire:
