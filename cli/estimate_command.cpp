@@ -20,7 +20,7 @@ namespace {
 
 struct EstimateOptions {
   OutputFlags outputs;
-  RigidFlag rigid;
+  TireFlags tire;
 };
 
 int estimate(const Question& inputs, const EstimateOptions& options, const Session& session) {
@@ -30,7 +30,7 @@ int estimate(const Question& inputs, const EstimateOptions& options, const Sessi
         "--plot draws curves: it takes several values of slip or of another condition\n"
         "  hint: --slip 0%..60%, or --load 50N..200N; the steepest slope: soilbin limits --plot slope.svg");
   require_semi_empirical(question, session.place.library);
-  std::vector<std::string> notes = options.rigid.apply(question, inputs.switches_effects_off());
+  std::vector<std::string> notes = options.tire.apply(question, inputs.switches_effects_off());
   const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
   compare::Report report = compare::report_on(question, study);
   report.data = [&] {
@@ -50,7 +50,7 @@ void add_estimate(CLI::App& app, Session& session) {
       app.add_subcommand("estimate", "drawbar pull, torque, sinkage and side force, from flags or a case");
   const auto inputs = std::make_shared<Question>(*command);
   const auto options = std::make_shared<EstimateOptions>();
-  options->rigid.add_to(*command);
+  options->tire.add_to(*command);
   options->outputs.add_to(*command, {.json = "the answers as JSON, in SI",
                                      .plot = "draw the curves over slip, or over another condition that varies",
                                      .csv = "save the table"});

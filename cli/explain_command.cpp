@@ -17,13 +17,13 @@
 namespace soilbin::cli {
 namespace {
 
-int explain(const Question& inputs, const RigidFlag& rigid, const OutputFlags& asked, const Session& session) {
+int explain(const Question& inputs, const TireFlags& tire, const OutputFlags& asked, const Session& session) {
   Case question = inputs.ask(session.place);
   constexpr std::size_t most = 20;
   if (question.study.conditions.size() > most)
     throw InputError(fmt::format("{} conditions are too many to explain; pick one with --load, --slip, ...",
                                  question.study.conditions.size()));
-  std::vector<std::string> notes = rigid.apply(question, inputs.switches_effects_off());
+  std::vector<std::string> notes = tire.apply(question, inputs.switches_effects_off());
   const std::string heading =
       fmt::format("{} on {}", compare::tire_in_words(question), compare::in_words(question.scenario.soil));
   compare::Report report{"Why: " + heading, question.description, heading};
@@ -58,13 +58,13 @@ void add_explain(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand(
       "explain", "why: the budget of forces, the equations with their values, and where the values come from");
   const auto inputs = std::make_shared<Question>(*command);
-  const auto rigid = std::make_shared<RigidFlag>();
-  rigid->add_to(*command);
+  const auto tire = std::make_shared<TireFlags>();
+  tire->add_to(*command);
   const auto outputs = std::make_shared<OutputFlags>();
   outputs->add_to(*command, {.json = "as JSON"});
   command->footer("Example: soilbin explain --soil dry-sand --tire rover-wheel --load 65N --slip 20%");
   command->callback(
-      [=, &session] { session.action = [=, &session] { return explain(*inputs, *rigid, *outputs, session); }; });
+      [=, &session] { session.action = [=, &session] { return explain(*inputs, *tire, *outputs, session); }; });
 }
 
 }  // namespace soilbin::cli

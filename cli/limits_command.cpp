@@ -17,7 +17,7 @@ namespace {
 struct LimitsOptions {
   OutputFlags outputs;
   std::string max_slip;
-  RigidFlag rigid;
+  TireFlags tire;
 };
 
 double max_slip_of(const LimitsOptions& options) {
@@ -28,7 +28,7 @@ double max_slip_of(const LimitsOptions& options) {
 int limits(const Question& inputs, const LimitsOptions& options, const Session& session) {
   Case question = inputs.ask(session.place);
   require_semi_empirical(question, session.place.library);
-  std::vector<std::string> notes = options.rigid.apply(question, inputs.switches_effects_off());
+  std::vector<std::string> notes = options.tire.apply(question, inputs.switches_effects_off());
   const std::vector<compare::WheelLimits> answers = compare::limits_of(question, max_slip_of(options));
   const std::vector<compare::ModelAnswers> at_limits = compare::answers_at_limits(question, answers);
   compare::Report report = compare::report_on(question, answers, at_limits);
@@ -51,7 +51,7 @@ void add_limits(CLI::App& app, Session& session) {
   const auto inputs = std::make_shared<Question>(*command, std::vector<std::string>{"load"},
                                                  std::vector<std::string>{"slip", "longitudinal_incline"});
   const auto options = std::make_shared<LimitsOptions>();
-  options->rigid.add_to(*command);
+  options->tire.add_to(*command);
   command
       ->add_option("--max-slip", options->max_slip,
                    "slip up to which the wheel may climb, beside the theoretical limit (20 %)")

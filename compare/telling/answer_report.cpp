@@ -205,20 +205,26 @@ Report report_on(const Case& question, const std::vector<ModelAnswers>& study) {
   return report;
 }
 
-std::vector<ReportPart> explanation_parts(const ModelChoice& choice, const OperatingCondition& at,
-                                          const Explanation& explanation) {
-  std::vector<ReportPart> parts = answer_parts({choice, {}, {}}, {at, explanation.result, ""});
-  Table forces = forces_table(explanation.result);
-  forces.caption = "Budget of forces along the drawbar pull";
-  parts.push_back({std::move(forces)});
+std::string equations_text(const Explanation& explanation) {
+  std::string text;
   const auto add = [&](const char* heading, const std::vector<Step>& steps) {
-    if (!steps.empty()) parts.push_back({Code{std::string(heading) + "\n" + steps_text(steps)}});
+    if (!steps.empty()) text += (text.empty() ? "" : "\n") + std::string(heading) + "\n" + steps_text(steps);
   };
   add(explanation.effects.empty() ? "Equations with their values"
                                   : "Base-model equations; effects change only the soil values shown",
       explanation.steps);
   add("Effects", explanation.effects);
   add("Closed-form checks (no balance, no effects)", explanation.cross_checks);
+  return text;
+}
+
+std::vector<ReportPart> explanation_parts(const ModelChoice& choice, const OperatingCondition& at,
+                                          const Explanation& explanation) {
+  std::vector<ReportPart> parts = answer_parts({choice, {}, {}}, {at, explanation.result, ""});
+  Table forces = forces_table(explanation.result);
+  forces.caption = "Budget of forces along the drawbar pull";
+  parts.push_back({std::move(forces)});
+  parts.push_back({Code{equations_text(explanation)}});
   return parts;
 }
 

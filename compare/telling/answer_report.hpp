@@ -26,6 +26,9 @@ std::vector<ReportPart> study_parts(const std::vector<ModelAnswers>& study);
 /// One answer in full, or a study_parts of several; curves, or the stresses under the wheel. Both outlive the report.
 Report report_on(const Case& question, const std::vector<ModelAnswers>& study);
 
+/// The equations with their values, the effects and the closed forms, each group under its heading.
+std::string equations_text(const Explanation& explanation);
+
 /// The answer, the budget of forces, the equations with the values put in, closed forms to check by.
 std::vector<ReportPart> explanation_parts(const ModelChoice& choice, const OperatingCondition& at,
                                           const Explanation& explanation);

@@ -5,9 +5,9 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answers.hpp"
-#include "compare/sweep/declared_flexibility.hpp"
-#include "compare/sweep/explanation.hpp"
+#include "compare/sweep/declared_tire.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/answer_report.hpp"
 #include "notebooks/bindings/bindings.hpp"
 #include "scenario/case.hpp"
 #include "scenario/nearest_word.hpp"
@@ -128,33 +128,29 @@ Case question_of(const Scenario& scenario) {
   return question;
 }
 
-std::vector<std::string> make_as_asked(Case& question, bool rigid) {
-  return rigid ? compare::make_rigid(question) : compare::flexible_where_declared(question);
-}
-
-void bind_declared_flexibility(py::module_& module) {
+void bind_as_asked(py::module_& module) {
   module.def(
       "as_asked",
-      [](const Scenario& scenario, const std::vector<OperatingCondition>& at, bool rigid) {
+      [](const Scenario& scenario, const std::vector<OperatingCondition>& at, bool rigid, bool no_lugs) {
         Case question = question_of(scenario);
         question.study.conditions = at;
-        std::vector<std::string> notes = make_as_asked(question, rigid);
+        std::vector<std::string> notes = compare::as_declared(question, {.pressure = rigid, .lugs = no_lugs});
         Scenario asked = scenario;
         asked.tire = question.scenario.tire;
         asked.effects = question.study.models.front().effects;
         return std::pair(asked, notes);
       },
-      py::arg("scenario"), py::arg("at"), py::arg("rigid") = false,
-      "The scenario as the commands ask it at these conditions, and what they say of that: with tire_flexibility where "
-      "the tire declares an inflation pressure and no effect names it, or `rigid`.");
+      py::arg("scenario"), py::arg("at"), py::arg("rigid") = false, py::arg("no_lugs") = false,
+      "The scenario as the commands ask it at these conditions, and what they say of that: with the effects of what "
+      "the tire declares, its inflation pressure (not where `rigid`) and its lugs (not where `no_lugs`).");
   module.def(
       "as_asked",
-      [](const Case& given, bool rigid) {
+      [](const Case& given, bool rigid, bool no_lugs) {
         Case question = given;
-        std::vector<std::string> notes = make_as_asked(question, rigid);
+        std::vector<std::string> notes = compare::as_declared(question, {.pressure = rigid, .lugs = no_lugs});
         return std::pair(question, notes);
       },
-      py::arg("case"), py::arg("rigid") = false, "The same of a case's study.");
+      py::arg("case"), py::arg("rigid") = false, py::arg("no_lugs") = false, "The same of a case's study.");
 }
 
 void bind_explanation(py::module_& module) {
@@ -176,7 +172,7 @@ void bind_explanation(py::module_& module) {
       .def_readonly("effects", &Explanation::effects)
       .def_readonly("cross_checks", &Explanation::cross_checks, "closed forms that need no balance")
       .def(
-          "__str__", [](const Explanation& e) { return compare::in_words(e).substr(1); },
+          "__str__", [](const Explanation& e) { return compare::equations_text(e); },
           "The equations with their values, as the command explain prints them.")
       .def("__repr__", [](const Explanation& e) {
         std::vector<std::string> names;
@@ -208,7 +204,7 @@ void bind_explanation(py::module_& module) {
 void bind_results(py::module_& module) {
   bind_result(module);
   bind_models(module);
-  bind_declared_flexibility(module);
+  bind_as_asked(module);
   bind_explanation(module);
 }
 

@@ -69,20 +69,20 @@ class EstimatedFloat(float):
     __str__ = __repr__
 
 
-def as_asked(scenario: Scenario, at: OperatingCondition, rigid: bool) -> Scenario:
-    """The scenario as the commands ask it: flexible where the tire declares a pressure, or rigid; warns of that."""
-    asked, notes = _soilbin.as_asked(checked(scenario), [at], rigid)
+def as_asked(scenario: Scenario, at: OperatingCondition, rigid: bool, no_lugs: bool) -> Scenario:
+    """The scenario as the commands ask it: with what its tire declares, pressure and lugs; warns of that."""
+    asked, notes = _soilbin.as_asked(checked(scenario), [at], rigid, no_lugs)
     tell(notes, stacklevel=4)
     return asked
 
 
-def explain(scenario: Scenario, at: Optional[OperatingCondition] = None, *, rigid: bool = False,
+def explain(scenario: Scenario, at: Optional[OperatingCondition] = None, *, rigid: bool = False, no_lugs: bool = False,
             **condition: Any) -> Explanation:
-    """The model's equations with their values: explain(wheel, load=80, slip=0.2). Keywords, `rigid` and errors as of
+    """The model's equations with their values: explain(wheel, load=80, slip=0.2). Keywords, `rigid`, `no_lugs` and errors as of
     estimate; each step's value is in its own `unit`.
     """
     asked = one_condition(at, condition)
-    return _soilbin.explain(as_asked(scenario, asked, rigid), asked)
+    return _soilbin.explain(as_asked(scenario, asked, rigid, no_lugs), asked)
 
 
 def at_any_slip(at: Optional[OperatingCondition], condition: dict[str, Any], hint: str = "") -> OperatingCondition:
@@ -95,36 +95,36 @@ def estimated(found: Optional[Estimate]) -> Optional[EstimatedFloat]:
     return None if found is None else EstimatedFloat(found.value, found.std_error)
 
 
-def largest_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, *, rigid: bool = False,
+def largest_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, *, rigid: bool = False, no_lugs: bool = False,
                  **condition: Any) -> PullPeak:
     """Largest drawbar pull [N] over 0 <= slip <= 1, with its standard error, and its slip [-]:
     largest_pull(wheel, load=80). The slip of `at` is not read. Keywords and `rigid` as of estimate. Raises NoSolution
     where no slip has a balance.
     """
     asked = at_any_slip(at, condition)
-    return _soilbin.largest_pull(as_asked(scenario, asked, rigid), asked)
+    return _soilbin.largest_pull(as_asked(scenario, asked, rigid, no_lugs), asked)
 
 
 def slip_for_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, drawbar: float = 0.0, *,
-                  rigid: bool = False, **condition: Any) -> Optional[EstimatedFloat]:
+                  rigid: bool = False, no_lugs: bool = False, **condition: Any) -> Optional[EstimatedFloat]:
     """Smallest slip [-] above -0.5 at which the wheel pulls `drawbar` [N] on the slope of `at`; None where it can't.
 
     A float with its standard error (`std_error`, to first order from the soil's standard deviations): NaN where one
     standard error of the soil makes the pull one that the wheel does not reach. `rigid` as in estimate.
     """
     asked = at_any_slip(at, condition, PULL_HINT)
-    return estimated(_soilbin.slip_for_pull(as_asked(scenario, asked, rigid), asked, drawbar))
+    return estimated(_soilbin.slip_for_pull(as_asked(scenario, asked, rigid, no_lugs), asked, drawbar))
 
 
 def steepest_slope(scenario: Scenario, at: Optional[OperatingCondition] = None, drawbar: float = 0.0, *,
-                   rigid: bool = False, **condition: Any) -> Optional[EstimatedFloat]:
+                   rigid: bool = False, no_lugs: bool = False, **condition: Any) -> Optional[EstimatedFloat]:
     """Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N]; None beyond -60 .. 80 deg.
 
     A float with its standard error (`std_error`, to first order from the soil's standard deviations). `rigid` as in
     estimate.
     """
     asked = at_any_slip(at, condition, PULL_HINT)
-    return estimated(_soilbin.steepest_slope(as_asked(scenario, asked, rigid), asked, drawbar))
+    return estimated(_soilbin.steepest_slope(as_asked(scenario, asked, rigid, no_lugs), asked, drawbar))
 
 
 def drive_wheel(scenario: Scenario, drive: Optional[Drive], samples: int = 400,

@@ -90,7 +90,7 @@ def names(shelf: Union[Shelf, str]) -> list[str]:
 
 
 def estimate(scenario: Scenario, at: Optional[OperatingCondition] = None, *, rigid: bool = False,
-             **condition: Any) -> TractionResult:
+             no_lugs: bool = False, **condition: Any) -> TractionResult:
     """The analytic model's answer at one condition: estimate(wheel, load=80, slip=0.2).
 
     Keywords set or change attributes of the condition, in SI: load [N] > 0, slip [-] in -1 .. 1 (0.2 is 20 %), speed
@@ -101,17 +101,19 @@ def estimate(scenario: Scenario, at: Optional[OperatingCondition] = None, *, rig
 
     A tire that declares an inflation pressure, or a condition that does, is flexible where it flattens: the answer is
     that of the effect tire_flexibility, where no effect names it, as the command's. rigid: of the rigid wheel, whatever
-    pressure the tire declares. BekkerWong().evaluate keeps to the scenario's effects.
+    pressure the tire declares. A tire with lugs has their thrust (effect lug_thrust, passive_blade), as the command's;
+    no_lugs: of the smooth wheel. BekkerWong().evaluate keeps to the scenario's effects.
     """
     asked = one_condition(at, condition)
-    scenario, notes = _soilbin.as_asked(checked(scenario), [asked], rigid)
+    scenario, notes = _soilbin.as_asked(checked(scenario), [asked], rigid, no_lugs)
     result = BekkerWong().evaluate(scenario, asked)
     warned(scenario, [_soilbin.answer_of(result)], notes=notes)
     return result
 
 
 def sweep(scenario: Scenario, at: Iterable[OperatingCondition], model: Optional[Model] = None,
-          progress: Progress = "shown", *, rigid: bool = False) -> pd.DataFrame:
+          progress: Progress = "shown", *, rigid: bool = False,
+          no_lugs: bool = False) -> pd.DataFrame:
     """A model's answers, a row a condition (the analytic model where none is given).
 
     Columns: the condition, the four channels with NAME_std_error, tractive_efficiency, the three angles of the contact,
@@ -123,7 +125,7 @@ def sweep(scenario: Scenario, at: Iterable[OperatingCondition], model: Optional[
     asked = list(at)
     if model is not None:
         return swept(scenario, asked, model, progress)
-    scenario, notes = _soilbin.as_asked(checked(scenario), asked, rigid)
+    scenario, notes = _soilbin.as_asked(checked(scenario), asked, rigid, no_lugs)
     return swept(scenario, asked, model, progress, notes)
 
 
@@ -137,13 +139,14 @@ def swept(scenario: Scenario, at: Iterable[OperatingCondition], model: Optional[
     return frame
 
 
-def run_study(case: Union[Case, str], progress: Progress = "shown", *, rigid: bool = False) -> pd.DataFrame:
+def run_study(case: Union[Case, str], progress: Progress = "shown", *, rigid: bool = False,
+          no_lugs: bool = False) -> pd.DataFrame:
     """The answers of a study's analytic models as sweep gives them, with a first column `model`.
 
     case: a Case, the name of a study in the library, or the path of a YAML file. Grains take minutes a condition: ask
     soilbin.dem.SoilBin for them. A tire with an inflation pressure is flexible or `rigid` as in estimate.
     """
-    question, notes = _soilbin.as_asked(_soilbin.find_case(case) if isinstance(case, str) else case, rigid)
+    question, notes = _soilbin.as_asked(_soilbin.find_case(case) if isinstance(case, str) else case, rigid, no_lugs)
     tell(notes)
     frames: list[pd.DataFrame] = []
     said: list[str] = list(notes)
