@@ -25,7 +25,7 @@ struct NodeLayout {
 NodeLayout node_layout(const SoilValues& soil, const Outline& outline, const Kinematics& motion,
                        const ContactAngles& angles);
 
-/// The same with half the nodes: good to about 1e-4, for the first steps of a search.
+/// A layout with half the nodes: good to about 1e-4, for the first steps of a search.
 NodeLayout coarse(const NodeLayout& layout);
 
 /// Lays nodes over [theta_2, theta_1], split at theta_m and, for a braked wheel, where the shear displacement changes

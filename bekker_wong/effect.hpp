@@ -136,8 +136,8 @@ struct EffectParameter {
   /// "moisture", "position" or "run" where this is a reference value about which the effect is centred: the loop then
   /// sets it to the campaign's mean. Empty for every other parameter.
   std::string centred_on = {};
-  /// Of a shape parameter (not the amplitude): the standard deviation about its default with which the loop fits it
-  /// [SI]. 0: half the default or 1 % of its range. Of a reference value: in half the campaign's range of that
+  /// The spread of a parameter. A shape's (not the amplitude's): the sd about its default with which the loop fits it
+  /// [SI]; 0: half the default or 1 % of its range. A reference value's: in half the campaign's range of that
   /// condition; 0: not fitted.
   double spread = 0.0;
   /// Whether the depth of the bin, where that is declared, is taken in place of this parameter.

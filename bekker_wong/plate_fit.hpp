@@ -73,7 +73,7 @@ double exponent_of(std::span<const PlateSums> curves, PlateExponent exponent);
 /// plain line through the moduli over 1/b. Throws InputError for fewer than two radii, or as sums_of does.
 PlateFit fit_plates(std::span<const PlateCurve> curves, PlateExponent exponent = PlateExponent::mean_of_plates);
 
-/// The same at a given exponent: each plate's modulus, then k_c and k_phi.
+/// Fits plates at a given exponent: each plate's modulus, then k_c and k_phi.
 PlateFit fit_plates_at(std::span<const PlateCurve> curves, double exponent);
 PlateFit fit_plates_at(std::span<const PlateSums> curves, double exponent);
 

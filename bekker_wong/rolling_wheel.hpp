@@ -70,7 +70,7 @@ class RollingWheel {
   /// than 0.9 r or no sinkage carries the load.
   RolledWheel roll(const OperatingCondition& at) const;
 
-  /// The same; where the soil gives way, because no sinkage down to 0.9 r carries the load, the wheel at the depth at
+  /// Rolls on failing soil too, which carries the load at no sinkage down to 0.9 r: then the wheel at the depth at
   /// which the soil carries most: its readings go on smoothly from those of the last load carried. For fits, which may
   /// cross such soils. Where a balance nearby is known with its steepness, to 1e-8 of the load. Throws InputError for
   /// an impossible condition, NoSolution where an effect would settle the wheel deeper than max_settled_share.
@@ -80,7 +80,7 @@ class RollingWheel {
   /// implicit function theorem and for looking at the balance. Where an effect settles the wheel, all other forces are
   /// those of its settled place with stresses that carry the load of `at`.
   RolledWheel at_entry_angle(const OperatingCondition& at, double theta_1) const;
-  /// The same on these nodes: for differences between wheels, which must not change nodes from one to the other.
+  /// The wheel at theta_1 on given nodes: for differences between wheels, which must not change nodes in between.
   RolledWheel at_entry_angle(const OperatingCondition& at, double theta_1, const NodeLayout& nodes) const;
   /// The nodes that the wheel's stresses ask for at theta_1 [rad].
   NodeLayout nodes(const OperatingCondition& at, double theta_1) const;

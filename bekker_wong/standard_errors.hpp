@@ -34,7 +34,7 @@ class BalanceDerivatives {
   Channels by(std::size_t parameter, double sd) const;
   /// By the carcass pressure of the tire, with its standard deviation [Pa].
   Channels by_carcass_pressure(double sd) const;
-  /// The same by a parameter of choices[effect], the effects of which `effects` was made.
+  /// Slopes by a parameter of choices[effect], the effects of which `effects` was made.
   Channels by(const std::vector<EffectChoice>& choices, std::size_t effect, const std::string& parameter,
               double sd) const;
 
@@ -51,7 +51,7 @@ class BalanceDerivatives {
     return point(tire_, soil, effects, theta_1, x);
   }
   OnePoint point(const Tire& tire, const SoilValues& soil, const EffectList& effects, double theta_1, double x) const;
-  /// Of the balanced channels, from points at the balanced theta_1 on both sides.
+  /// Slopes of the balanced channels, from points at the balanced theta_1 on both sides.
   Channels balanced(const OnePoint& below, const OnePoint& above) const;
   /// Slopes over x, in place of values; one-sided where a point is missing, not a number without both.
   Point slopes(const OnePoint& below, const OnePoint& above) const;

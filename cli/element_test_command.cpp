@@ -44,7 +44,7 @@ std::vector<double> stresses_of(const ElementTestOptions& options, std::vector<d
   return out;
 }
 
-/// Of a test of strength on specimens with these sides.
+/// Settings of a test of strength on specimens with these sides.
 template <class Settings>
 Settings strength_settings(const AskedTest& asked, std::initializer_list<double Settings::*> sides) {
   Settings s;

@@ -64,11 +64,11 @@ CLI::Option* add_value(CLI::App& command, const std::string& flag, T& value, con
 /// reads the same file is refused (announce_output).
 CLI::Option* add_file(CLI::App& command, const char* flag, std::string& name, const char* type, const char* meaning);
 
-/// The same for a file that the command reads first, so that nothing of it is lost.
+/// A flag that names a file which the command reads first, so that nothing of it is lost.
 CLI::Option* add_kept_file(CLI::App& command, const char* flag, std::string& name, const char* type,
                            const char* meaning);
 
-/// The same for a folder that files are written into; `written`: those of them that the command may also read.
+/// A flag that names a folder for written files; `written`: those of them that the command may also read.
 CLI::Option* add_folder(CLI::App& command, const char* flag, std::string& name, const char* meaning,
                         const std::vector<std::string>& written = {});
 

@@ -42,7 +42,7 @@ class ConditionFlags {
   /// kept once. Throws InputError that names the flag, or says why there is no such speed.
   void pick(Case& question) const;
 
-  /// Of a condition, those that were given.
+  /// The keys of a condition that were given as flags.
   std::set<std::string> given_keys() const;
 
  private:
@@ -155,7 +155,7 @@ class Question {
 /// Throws InputError where the analytic model is asked on a soil that has values for grains alone.
 void require_semi_empirical(const Case& question, const Library& library);
 
-/// The same where grains are to be run on a soil without them.
+/// Throws InputError where grains are to be run on a soil without them.
 void require_grains(const Case& question, const Library& library);
 
 /// The rows of an answer under the names of its tire and soil, with the whole question as a case file's text.

@@ -124,7 +124,7 @@ auto recording(const RunOptions& options, const Work& work) {
   }
 }
 
-/// Of a question that nobody has answered yet, and of the bed that its runs would begin on.
+/// Doubts about a question that nobody has answered yet, and about the bed that its runs would begin on.
 std::vector<std::string> doubts_before_runs(const RunOptions& options, const Case& question) {
   std::vector<std::string> doubts = compare::doubts(question);
   for (std::string& doubt : bed_doubts(options.soil_bin, question)) doubts.push_back(std::move(doubt));

@@ -128,7 +128,7 @@ void check_threads(int threads) {
     throw InputError(fmt::format("--threads: 0 (one a core) .. {}", dem::most_threads()));
 }
 
-/// Of --engine and --ranks. The program lies beside this one; SOILBIN_MPIRUN says what starts it.
+/// The LAMMPS worker of --engine and --ranks. Its program lies beside this one; SOILBIN_MPIRUN says what starts it.
 std::optional<dem::LammpsWorker> lammps_of(const SoilBinFlags& flags) {
   if (flags.engine != "lammps") {
     if (flags.settled_by == "lammps") throw InputError("--settled-by lammps also needs --engine lammps");

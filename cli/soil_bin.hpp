@@ -23,7 +23,7 @@ std::filesystem::path folder_of_beds();
 
 /// Stops at Ctrl-C; shows stage, share and time left where standard error is a terminal.
 void show_dem_progress(const dem::Progress& progress);
-/// The same; `work` says what it is of: "run 3 of 12".
+/// Shows progress with what it is of in front: `work`, such as "run 3 of 12".
 void show_progress_of(const std::string& work, const dem::Progress& progress);
 
 /// A line on standard error that progress doesn't write over.
@@ -104,7 +104,7 @@ struct GrainsAsked {
 void check_flags_of_grains(const SoilBinFlags& flags, const CLI::App& command, const Case& question,
                            const GrainsAsked& grains = {});
 
-/// Who answers for grains with these flags; reads the record that is to answer (read_record_with_notes).
+/// The source of grain answers with these flags; reads the record that is to answer (read_record_with_notes).
 compare::StudyGrains grains_of(const SoilBinFlags& flags);
 
 /// compare::read_record; says so where no seal vouches for a run.

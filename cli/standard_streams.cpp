@@ -53,7 +53,7 @@ bool write_all(int descriptor, std::string_view text) {
   return true;
 }
 
-/// The same where nobody minds: a reader that is gone sends no signal either.
+/// Writes without complaint: a reader that is gone sends no signal either.
 void write_or_drop(int descriptor, std::string_view text) {
   sigset_t pipe, before, waiting;
   sigemptyset(&pipe), sigaddset(&pipe, SIGPIPE);

@@ -33,15 +33,15 @@ std::optional<std::filesystem::path> schema_file(const std::string& format);
 /// Reads a case: the name of a study in the library, or a path.
 Case find_case(const Workplace& place, const std::string& name);
 
-/// The same; refuses a case that asks for a drive alone.
+/// Finds a study; refuses a case that asks for a drive alone.
 Case find_study(const Workplace& place, const std::string& name);
 
 /// Where the record of a study's runs lies, beside it in the library, or would: recorded/NAME.json.
 std::filesystem::path place_of_record(const Workplace& place, const std::string& study);
 /// The record of a study's runs that lies beside it in the library. Throws InputError with a hint where there is none.
 std::filesystem::path find_record(const Workplace& place, const std::string& study);
-/// The same where `recorded`, an option's value, is library_record; of that study where it is a name, neither a path
-/// nor NAME.json; else `recorded` itself.
+/// The record that an option's value, `recorded`, names. library_record: this study's. A name, neither a path nor
+/// NAME.json: the record of that study. Else the file `recorded` itself.
 std::filesystem::path find_record(const Workplace& place, const std::string& study, const std::string& recorded);
 inline constexpr const char* library_record = "library";
 

@@ -1,6 +1,6 @@
-# What `cmake --install` lays down: the command, the libraries with their headers, the cases, the docs, and a CMake
-# package, so that find_package(soilbin) gives soilbin::scenario, soilbin::bekker_wong, soilbin::dem, soilbin::compare and
-# soilbin::experiments (compare/experiments).
+# What `cmake --install` lays down: the command, the libraries with the headers that docs/reference/cpp-api.md names, the
+# cases, the docs, and a CMake package, so that find_package(soilbin) gives soilbin::scenario, soilbin::bekker_wong,
+# soilbin::dem, soilbin::compare and soilbin::experiments (compare/experiments).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -28,11 +28,10 @@ foreach(library IN LISTS floors ITEMS experiments)
   set_target_properties(soilbin_${library} PROPERTIES EXPORT_NAME ${library})
   install(TARGETS soilbin_${library} EXPORT soilbin ARCHIVE COMPONENT development)
 endforeach()
-foreach(floor IN LISTS floors)
-  # Headers are included as in the project itself, "scenario/tire.hpp", from a folder of soilbin's own.
-  install(DIRECTORY ${floor} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/soilbin COMPONENT development
-    FILES_MATCHING PATTERN "*.hpp" PATTERN worker_lammps EXCLUDE)  # a program's own, and MPI's
-endforeach()
+# Headers are included as in the project itself, "scenario/tire.hpp", from a folder of soilbin's own.
+install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}\")\nset(FOLDER \"${CMAKE_INSTALL_INCLUDEDIR}/soilbin\")"
+  COMPONENT development)
+install(SCRIPT ${PROJECT_SOURCE_DIR}/cmake/install_headers.cmake COMPONENT development)
 install(EXPORT soilbin NAMESPACE soilbin:: DESTINATION ${package_folder} FILE soilbin-targets.cmake COMPONENT development)
 
 configure_package_config_file(cmake/soilbin-config.cmake.in ${PROJECT_BINARY_DIR}/soilbin-config.cmake

@@ -73,7 +73,7 @@ bool take_name(int descriptor, const fs::path& name) {
   return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
 }
 
-/// The same beside the target, by a name that no other writer has; "" with errno where that fails.
+/// Names an open file beside the target, by a name that no other writer has; "" with errno where that fails.
 std::string take_temporary_name(int descriptor, const fs::path& target) {
   static std::atomic<unsigned> count{0};
   for (;;) {

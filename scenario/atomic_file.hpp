@@ -59,7 +59,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 /// Why no file of this name could be written now, for people; "" where it could. Tries it in the nearest folder that is
 /// there, and leaves nothing.
 std::string why_not_writable(const std::filesystem::path& path);
-/// The same for a folder that is to be made, or is there, and files in it.
+/// Why a folder cannot be made or used, with the files in it; "" where it can.
 std::string why_no_folder(const std::filesystem::path& path);
 
 }  // namespace soilbin

@@ -50,8 +50,8 @@ struct Study {
   std::string name;
   std::vector<ModelChoice> models;
   std::vector<OperatingCondition> conditions;
-  /// Of each condition: the speed of rotation [rad/s] from which it got its speed, none where the file gives the speed.
-  /// Who changes a condition's slip can so keep its rotation. Empty where no file was read; write_case leaves it out.
+  /// Each condition's speed of rotation [rad/s], from which it got its speed; none where the file gives the speed.
+  /// With it a change of slip can keep the rotation. Empty where no file was read; write_case leaves it out.
   std::vector<std::optional<double>> rotations = {};
 };
 
@@ -93,7 +93,7 @@ void label_models(std::vector<ModelChoice>& models);
 /// Throws InputError with file, line, column, excerpt and hint for everything that is not a valid case.
 Case read_case(const std::filesystem::path& path, const Library& library, const EffectVocabulary& effects);
 
-/// The same from a text in memory; `source.file` is the path to which relative paths in it refer.
+/// Reads a case from a text in memory; `source.file` is the path to which relative paths in it refer.
 Case parse_case(const SourceText& source, const Library& library, const EffectVocabulary& effects);
 
 /// Reads a tire file (soilbin-tire/1). A tire without a name gets the file's.

@@ -30,7 +30,7 @@ ConditionGrid read_conditions(const YamlNode& node, const Tire& tire, const Read
 std::vector<double> numbers_by_step(const Quantity& from, double to, const Quantity& step,
                                     std::optional<double> n = std::nullopt);
 
-/// The same for a number of values, at least 2, both ends among them.
+/// A range as a number of values, at least 2, both ends among them.
 std::vector<double> numbers_by_count(const Quantity& from, double to, int count,
                                      std::optional<double> n = std::nullopt);
 

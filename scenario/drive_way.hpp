@@ -39,7 +39,7 @@ class Way {
   double blend_;
 };
 
-/// The same where no soil is asked for.
+/// A way of angles alone, where no soil is asked for.
 inline Way angles_along(const std::vector<Waypoint>& points) { return {points, 1.0}; }
 
 }  // namespace soilbin

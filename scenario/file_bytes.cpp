@@ -28,7 +28,7 @@ bool are_one_file(const std::filesystem::path& a, const std::filesystem::path& b
   return in_full(a) == b || std::filesystem::equivalent(a, b, none);
 }
 
-/// Of this process, in the order in which its flags were read.
+/// The outputs that this process announced, in the order in which its flags were read.
 std::vector<AnnouncedOutput>& announced_outputs() {
   static std::vector<AnnouncedOutput> all;
   return all;

@@ -6,7 +6,7 @@
 
 namespace soilbin {
 
-/// Who adds to a file at the same time: several processes, each of which holds its folder's lock for it, or one. On
+/// Processes that add to a file at the same time: several, each of which holds its folder's lock for it, or one. On
 /// file systems without locks, as clusters have them, each process has a file of its own.
 enum class Writers { several, one };
 

@@ -34,7 +34,7 @@ std::string effect_parameter_name(const std::vector<EffectChoice>& effects, std:
 /// Correlation of the i-th with the k-th of a list: 1 of each with itself, symmetric, 0 where none is given.
 double correlation(const std::vector<FittedError>& errors, std::size_t i, std::size_t k);
 
-/// The same of two parameters by name; 0 where the list lacks one of them: it errs by itself.
+/// Correlation of two parameters by name; 0 where the list lacks one of them: it errs by itself.
 double correlation(const std::vector<FittedError>& errors, const std::string& one, const std::string& other);
 
 /// Whether these are the correlations of any set of numbers: no combination of them has a negative variance.

@@ -22,7 +22,7 @@ class Library {
  public:
   explicit Library(std::vector<std::filesystem::path> folders = {}) : folders_(std::move(folders)) {}
 
-  /// The same library with a file's folder, and the folder above it, searched first.
+  /// A library with a file's folder, and the folder above it, searched before this one's.
   Library beside(const std::filesystem::path& file) const;
   /// The file behind a name, or no value. A name holds no path separator.
   std::optional<std::filesystem::path> find(Shelf shelf, const std::string& name) const;

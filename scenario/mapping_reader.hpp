@@ -127,7 +127,7 @@ class ReadInto {
   }
 
  private:
-  /// Of the keys that texts stand behind: what people write sentences for.
+  /// Whether a text stands behind the key: what people write sentences for.
   static bool may_have_lines(std::string_view key) {
     return key == "description" || key == "source" || key == "quote" || key == "title" || key == "chosen";
   }

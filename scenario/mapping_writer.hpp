@@ -169,7 +169,7 @@ void write_members(const T& from, Writing& writing) {
   describe(visitor, std::type_identity<T>{});
 }
 
-/// The same below a key of its own.
+/// Writes a struct below a key of its own.
 template <class T>
 void write_group(std::string_view key, const T& from, YamlLines& lines) {
   lines.open(key);

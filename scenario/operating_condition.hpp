@@ -9,7 +9,7 @@
 
 namespace soilbin {
 
-/// Which speed the slip was computed from, where the wheel is yawed (docs/reference/conventions.md).
+/// The speed from which slip was computed, where the wheel is yawed (docs/reference/conventions.md).
 enum class SlipBy {
   wheel_plane_speed,  ///< s = 1 - v cos(yaw)/(r w): the speed's component in the wheel's plane
   travel_speed,       ///< s = 1 - v/(r w): the whole speed of travel
@@ -36,7 +36,7 @@ struct OperatingCondition {
   std::optional<double> moisture{};  ///< water content by mass [-]
   std::optional<double> position{};  ///< mean distance along the bin [m]
   std::optional<int> run{};          ///< order in which the runs were made
-  /// Of the tire in this run, in place of its declared one [Pa]; absent: the tire's own (tire_at).
+  /// Inflation pressure in this run, in place of the tire's own [Pa]; absent: as declared (tire_at).
   std::optional<double> inflation_pressure{};
 
   /// Member by member: equal where every number is the same, sorted as a tuple.

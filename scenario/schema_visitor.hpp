@@ -12,7 +12,7 @@ namespace soilbin {
 
 /// A number in text: '11 mm', or a bare number where the measure is a plain one.
 nlohmann::ordered_json quantity_schema(const Measure& measure, const std::string& meaning);
-/// The same, or {value, source} and, where `with_deviation`, an sd.
+/// Schema of a number, or of {value, source} and, where `with_deviation`, an sd.
 nlohmann::ordered_json number_schema(const Measure& measure, const std::string& meaning, bool with_deviation);
 nlohmann::ordered_json integer_schema(int lowest, const std::string& meaning);
 nlohmann::ordered_json words_schema(const std::vector<std::string>& words, const std::string& meaning);

@@ -32,7 +32,7 @@ struct SemiEmpiricalSoil {
   Estimate stress_angle_c2;         ///< c2 [-]
   std::optional<double> density;    ///< bulk density [kg/m^3]; absent: bulk_density() presumes one
   std::optional<double> gravity{};  ///< that pulls on it [m/s^2]; absent: Earth's
-  /// Of a source that gives no standard deviations: the share of each value but n that its file assumes
+  /// For a source that gives no standard deviations: the share of each value but n that its file assumes
   /// in their place, >= 0. (k_c and k_phi belong to one n: at this n their shares stand for the stiffness.)
   std::optional<double> assumed_sd{};
   std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "k_c"
@@ -53,7 +53,7 @@ inline bool is_from_command_line(const SemiEmpiricalSoil& soil, const char* name
   return source != soil.sources.end() && source->second == command_line_source;
 }
 
-/// Of a soil that declares no density, some sand's [kg/m^3].
+/// The bulk density presumed for a soil that declares none: some sand's [kg/m^3].
 inline constexpr double presumed_bulk_density = 1500.0;
 
 /// What effects that weigh soil read [kg/m^3].
@@ -80,7 +80,7 @@ enum class GrainShape { sphere, two_spheres, three_spheres, four_spheres };
 
 constexpr int spheres_of(GrainShape shape) { return static_cast<int>(shape) + 1; }
 
-/// The same soil as grains, for the discrete element model.
+/// A soil as grains, for the discrete element model.
 struct GranularSoil {
   double radius_min = 0.0;          ///< [m] radii are uniform between radius_min and radius_max
   double radius_max = 0.0;          ///< [m]; of a grain of several spheres, that of the sphere of its volume

@@ -41,7 +41,7 @@ inline constexpr std::array<TractionChannel, 4> traction_channels = {{
      true},
 }};
 
-/// Those in the wheel's plane, which every run tells: drawbar pull, torque, sinkage.
+/// The channels in the wheel's plane, which every run tells: drawbar pull, torque, sinkage.
 inline constexpr std::array<std::size_t, 3> channels_in_plane = {0, 1, 2};
 
 /// W, W r or r, of a load W and a radius r.

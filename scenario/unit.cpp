@@ -81,7 +81,7 @@ struct Named {
   std::string_view unit, name, example;
 };
 
-/// Of units that are written with a joule: where a force would give the quantity another name.
+/// Units that are written with a joule: where a force would give the quantity another name.
 constexpr std::array energy_names = {
     Named{"J", "an energy", "12 J"},
     Named{"J/m^2", "an energy per area", "0.1 J/m^2"},

@@ -41,7 +41,7 @@ struct Unit {
 /// reading for, 'lb' is a pound-force: 'lb/in^(n+2)' of a modulus, 'lb/in^2' of a pressure.
 Unit parse_unit(std::string_view text, std::optional<double> n = std::nullopt, const Dimension* meant = nullptr);
 
-/// Same dimension: as expressions in n or, where n is given, at that n.
+/// Whether two dimensions agree: as expressions in n or, where n is given, at that n.
 bool same_dimension(const Dimension& a, const Dimension& b, std::optional<double> n = std::nullopt);
 
 /// What a person would call a quantity of this unit, with its article: "a length", "a pressure".

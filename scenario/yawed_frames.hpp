@@ -11,7 +11,7 @@ inline double speed_ratio(double slip) { return slip >= 0.0 ? 1.0 - slip : 1.0 /
 /// The slip of a ratio v/(r w) of 0 or more.
 inline double slip_of_ratio(double ratio) { return ratio <= 1.0 ? 1.0 - ratio : 1.0 / ratio - 1.0; }
 
-/// The same motion's slip by another speed: v cos(yaw)/(r w) and v/(r w) differ by cos(yaw) [rad]. A locked wheel's is
+/// The slip of a motion by another speed: v cos(yaw)/(r w) and v/(r w) differ by cos(yaw) [rad]. A locked wheel's is
 /// -1 by either. Throws InputError where at 90 deg of yaw the speed in the wheel's plane, 0, is to tell the speed of
 /// travel.
 double slip_by(double slip, double yaw, SlipBy from, SlipBy to);
@@ -22,7 +22,7 @@ struct GroundForce {
   double forward = 0.0, left = 0.0;
 };
 
-/// The same force in another frame: the wheel's axes stand `yaw` [rad] to the left of those of travel.
+/// A force in another frame: the wheel's axes stand `yaw` [rad] to the left of those of travel.
 GroundForce turned(const GroundForce& force, double yaw, ForceFrame from, ForceFrame to);
 
 }  // namespace soilbin

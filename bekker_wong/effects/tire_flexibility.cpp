@@ -77,7 +77,7 @@ struct PressureCap {
   /// Rises with that depth, 1 where it is right.
   double residual(double, double pressure, double) const { return pressure / most; }
   double tread(double z_g, double d) const { return d * rounded(d / z_g); }
-  /// That depth, and the pressure there, where the tread lies at y below the circle's d.
+  /// The decisive depth, and the pressure there, where the tread lies at y below the circle's d.
   static double decisive_under(double y, double d) { return y * std::pow(-std::expm1(6 * std::log(y / d)), -1.0 / 6); }
   double pressure_under(double, double) const { return most; }
   void operator()(std::span<const double> d, Depths& reached) const {
@@ -108,7 +108,7 @@ struct CarcassSpring {
   /// Rises with that depth, 1 where it is right.
   double residual(double y, double pressure, double d) const { return (y + softness * pressure) / d; }
   static double tread(double y, double) { return y; }
-  /// That depth, and the pressure there, where the tread lies at y below the circle's d.
+  /// The decisive depth, and the pressure there, where the tread lies at y below the circle's d.
   static double decisive_under(double y, double) { return y; }
   double pressure_under(double y, double d) const { return (d - y) / softness; }
   void operator()(std::span<const double> d, Depths& reached) const {

@@ -12,7 +12,7 @@ struct EffectTitle {
   std::string_view id, name, meaning;
 };
 
-/// Of an effect of the catalogue, or "learned". Throws std::out_of_range for another id.
+/// The title of an effect of the catalogue, or of "learned". Throws std::out_of_range for another id.
 const EffectTitle& effect_title(std::string_view id);
 
 }  // namespace soilbin::bekker_wong

@@ -262,7 +262,7 @@ void DrivenWheel::rate(double time, std::span<const double> state, const Motor& 
   out[speed_error] = motor.integral_rate(time, state[spin], state[speed_error]);
 }
 
-/// Of a wheel that does not move, at the start.
+/// The push on a wheel that does not move, at the start.
 DrivenWheel::Push DrivenWheel::push_at_rest(const Place& start, std::span<const double> state) const {
   const OnSoil& on = soils_[start.soil];
   const Span span = contact_span(on, state[depth], 0.0);

@@ -101,7 +101,7 @@ void add_numbers(Json& to, const T& from, const char* group, const std::string& 
   });
 }
 
-/// Of a soil without a value a slider reaches three times this [SI], and of one whose value is small.
+/// A usual size [SI]: a slider reaches three times this for a soil without the value, or with a small one.
 double usual_soil_value(const SoilParameter& p) {
   const std::string_view name = p.name;
   if (name == "k_c") return 5e3;

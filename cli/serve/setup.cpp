@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Of a query's values, which are to leave one.
+/// The largest number of values in a query, of which one is to be left.
 constexpr std::size_t most_asked_at_once = 100;
 
 constexpr double usual_slip = 0.2;  ///< where a page starts, as near as the case allows

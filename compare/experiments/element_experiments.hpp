@@ -1,4 +1,7 @@
 // Element tests of the grain engine as virtual tests of a calibration.
+//
+//   const auto factors = usual_factors(ContactKind::grain_tire);  // what is varied, between which bounds
+//   const auto names = target_names(ContactKind::grain_tire);     // what is to be met: "board_angle"
 #pragma once
 
 #include <string>

@@ -133,7 +133,7 @@ H5::DSetCreatPropList layout_of(const Shape& shape, std::size_t number_bytes) {
   return how;
 }
 
-/// Of groups: no times, and many attributes and names kept close together.
+/// Properties of groups: no times, and many attributes and names kept close together.
 template <class Properties>
 void keep_plain(const Properties& properties) {
   require(H5Pset_obj_track_times(properties.getId(), false) >= 0);

@@ -43,7 +43,7 @@ class Group {
   Shape shape(const std::string& name) const;
   /// Refuses a dataset of other numbers or another shape.
   void read(const std::string& name, Number number, const Shape& shape, void* data) const;
-  /// Of datasets and groups.
+  /// Names of the datasets and groups in it.
   std::vector<std::string> names() const;
 
   /// Attributes of the group.
@@ -77,7 +77,7 @@ class OutputFile {
   ~OutputFile();
   const Group& root() const { return root_; }
   /// Ends the file, its groups can't be used any more, and gives it as it would lie on the disk; lives as long as this.
-  /// The same content gives the same bytes: no times are in it.
+  /// Ends the file and gives its bytes: equal content gives equal bytes, since no times are in it.
   std::string_view finish();
 
  private:

@@ -114,7 +114,7 @@ class NoteReader {
     values.resize(length());
     for (T& value : values) get(value);
   }
-  /// Of what follows, which takes a place each at least.
+  /// Reads the number of entries that follow, which take a place each at least.
   std::size_t length() {
     std::size_t size = 0;
     get(size);

@@ -69,7 +69,7 @@ struct Parts<std::array<T, n>> {
   }
 };
 
-/// Of things that have a group each: bodies, meshes, materials.
+/// The largest number of things that have a group each: bodies, meshes, materials.
 inline constexpr std::uint64_t most_groups = 10'000;
 
 /// The row itself, for columns of numbers.

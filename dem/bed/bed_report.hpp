@@ -54,7 +54,7 @@ class SolidLattice {
  public:
   SolidLattice(const Region& region, double spacing);
   void add(const Vec3& centre, double radius);
-  /// Of its points [0 .. 1].
+  /// Share of its points [0 .. 1].
   double share() const;
 
  private:
@@ -77,7 +77,7 @@ struct UnrestSums {
   double forces = 0, contacts = 0;  ///< sizes of the contacts' forces at the end [N], and their number
 
   void add(double mass, double radius, const Vec3& displacement, const Vec3& change_of_velocity, double g, double time);
-  /// Of many grains; rest where there are none.
+  /// Means over many grains; rest where there are none.
   Unrest means() const;
 };
 

@@ -32,7 +32,7 @@ class BedStore {
   /// so a folder that may only be read serves what is there.
   std::shared_ptr<const SettledBed> bed(const BedRecipe& recipe, const WorkOptions& how = {});
 
-  /// Which is there when the bed is. LAMMPS keeps grains in a folder of their own.
+  /// The file of a bed; it exists only if the bed is stored. LAMMPS keeps grains in a folder of their own.
   std::filesystem::path file(const BedRecipe& recipe) const {
     const std::string name = "bed-" + content_key(recipe);
     return recipe.settled_by == SettledBy::lammps ? folder_ / name / "report.txt" : folder_ / (name + ".h5");

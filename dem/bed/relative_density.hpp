@@ -35,7 +35,7 @@ std::array<BedRecipe, 2> limit_beds(const GranularSoil& soil);
 DensityLimits density_limits(const GranularSoil& soil, BedStore& store, const WorkOptions& how = {});
 /// Whether the store's folder has both.
 bool has_density_limits(const GranularSoil& soil, const BedStore& store);
-/// The same as density_limits without settling anything: none where the store's folder lacks one of the beds.
+/// The limits as density_limits gives them, without settling anything: none where the store lacks one of the beds.
 std::optional<DensityLimits> known_density_limits(const GranularSoil& soil, BedStore& store);
 
 /// (e_loosest - e)/(e_loosest - e_densest): 0 loosest, 1 densest; beyond both for a bed that is looser or denser than

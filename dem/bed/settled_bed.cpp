@@ -25,7 +25,7 @@ constexpr double headroom = 20;          // of the domain, for grains that are t
 
 double densest_of(const GranularSoil& soil) { return soil.shape == GrainShape::sphere ? densest : densest_clumps; }
 
-/// Of all grains that are put in [m^3].
+/// Volume of all grains that are put in [m^3].
 double volume_of_grains(const BedRecipe& recipe) {
   const auto& [length, width, depth] = recipe.size;
   return spare * densest_of(recipe.soil) * length * width * (depth + recipe.grading.factor * recipe.soil.radius_max);

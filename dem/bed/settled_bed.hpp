@@ -44,11 +44,11 @@ struct Grading {
 /// diameter of the coarse grains.
 Grading grading_for(const Tire& tire, const GranularSoil& soil, double factor);
 
-/// Whose processes settle a bed: this program's engine, or LAMMPS (dem/worker_lammps). Both take the same stages
+/// The engine that settles a bed: this program's own, or LAMMPS (dem/worker_lammps). Both take the same stages
 /// (settling.hpp) with the same grains; the bits differ.
 enum class SettledBy { soilbin, lammps };
 
-/// That pulls on grains of this soil [m/s^2]; where it declares none, the 9.81 of every recorded bed.
+/// Gravity on grains of this soil [m/s^2]; where it declares none, the 9.81 of every recorded bed.
 inline double gravity_on(const GranularSoil& soil) { return soil.gravity.value_or(9.81); }
 
 /// All that a bed follows from. The tire's contact with the soil is not read.

@@ -4,7 +4,7 @@
 //   BedRun run(simulation, how);                 // once, loop, step, keep, simulation(): as RunStages has them
 //   Settling<BedRun>(recipe, run).settle();
 //
-// Who moves grains answers four questions about all of them: watched and unrest_since (bed_report.hpp), mean_height
+// Engines answer four questions about all grains: watched and unrest_since (bed_report.hpp), mean_height
 // and remove_above.
 #pragma once
 

@@ -36,7 +36,7 @@ struct SpecimenSettings {
 /// The recipe of a bed that fills a box of this size, to be poured, levelled and settled by settle_bed.
 BedRecipe specimen_recipe(const GranularSoil& soil, const BedSize& size, const SpecimenSettings& settings);
 
-/// That bed: from `beds` where there is one, else settled now.
+/// The bed of a recipe: from `beds` where there is one, else settled now.
 std::shared_ptr<const SettledBed> specimen_bed(const BedRecipe& recipe, const WorkOptions& how, BedStore* beds);
 
 /// A setup with the bed's material and laws, a domain that leaves walls room to move, and no bodies. Other materials

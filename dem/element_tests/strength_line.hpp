@@ -29,7 +29,7 @@ struct StrengthLine {
 /// not above 0.
 StrengthLine fit_strength(std::span<const StrengthPoint> points);
 
-/// The same from circles of Mohr: each point holds s = (sigma_1 + sigma_3)/2 and t = (sigma_1 - sigma_3)/2, and
+/// Fits Mohr's circles: each point holds s = (sigma_1 + sigma_3)/2 and t = (sigma_1 - sigma_3)/2, and
 /// t = c cos(phi) + s sin(phi).
 StrengthLine fit_circles(std::span<const StrengthPoint> points);
 

@@ -24,13 +24,13 @@ struct ClumpShape {
   double volume = 0;  ///< that they fill together [m^3]
   Vec3 inertia;       ///< about the axes, at unit density [m^5]
 
-  /// The same form, `factor` times as large.
+  /// A shape of the same form, `factor` times as large.
   ClumpShape scaled(double factor) const;
   /// Radius of the smallest ball about the centre of mass that holds it [m].
   double reach() const;
 };
 
-/// Of these spheres, in a frame of any kind. Throws InputError for none, and as mass_properties does.
+/// The shape of these spheres, in a frame of any kind. Throws InputError for none, and as mass_properties does.
 ClumpShape clump_shape(std::vector<Sphere> spheres);
 
 /// Where a clump is and how it moves.

@@ -35,15 +35,15 @@ struct Kick {
 };
 
 std::vector<Contact> contacts_of(const World& world);
-/// Of the contacts on each grain, row by row.
+/// Loads of the contacts on each grain, row by row.
 std::vector<Load> loads_of(const World& world);
 EnergyBalance energy_of(const World& world);
 
 /// Whether the velocity of the grain in this row is still at a whole step.
 bool is_new(const World& world, std::size_t row);
-/// Of a grain that is no sphere of a clump, within `time` [s].
+/// The kick of a grain that is no sphere of a clump, within `time` [s].
 Kick kick_of(const World& world, std::size_t row, const Load& load, double time);
-/// Of all, from the loads of all, row by row.
+/// Kicks of all grains, from the loads of all, row by row.
 std::vector<Kick> kicks_of(const World& world, const std::vector<Load>& loads, double time);
 /// From the kick of half a step.
 GrainNow motion_at(const World& world, std::size_t row, const Kick& kick);

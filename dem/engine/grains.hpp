@@ -12,7 +12,7 @@
 namespace soilbin::dem {
 
 using GrainId = std::uint32_t;
-/// Of a grain that is a sphere by itself, in Grains::clump.
+/// What Grains::clump holds for a grain that is a sphere by itself.
 inline constexpr std::uint32_t lone = ~0u;
 
 /// A grain to be added, or a sphere of a clump.

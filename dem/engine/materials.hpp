@@ -35,7 +35,7 @@ struct Interaction {
   double shear_stiffness = 0;     ///< hooke: k_t [N/m], at least 0
 };
 
-/// Which laws act, in the whole run.
+/// The laws that act, in the whole run.
 struct ContactLaws : LawFlags {
   /// g_t as a share of g_n; negative: Mindlin's own, 2 sqrt(5/6) beta sqrt(k_t m*).
   double tangential_damping = -1;

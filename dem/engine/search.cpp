@@ -18,7 +18,7 @@ double wrapped(double at, double lower, double length) {
 /// Contacts with surfaces by grain id, in order.
 using KeptOnSurfaces = std::vector<std::pair<GrainId, SurfaceContact>>;
 
-/// Those of all slabs, to hand them out again once grains are sorted.
+/// What all slabs keep, to hand it out again once grains are sorted.
 KeptOnSurfaces by_id(const std::vector<SurfaceContacts>& surfaces, const Grains& grains) {
   KeptOnSurfaces all;
   for (const SurfaceContacts& slab : surfaces)
@@ -42,7 +42,7 @@ void hand_out(const KeptOnSurfaces& kept, const Grains& grains, SurfaceContacts&
   }
 }
 
-/// Of each row before some were gone and the rest sorted: the row now, or that it is gone.
+/// For each row before some were gone and the rest sorted: the row now, or that it is gone.
 std::vector<std::uint32_t> new_rows(std::span<const std::uint32_t> order, std::span<const std::uint8_t> gone,
                                     std::size_t before) {
   std::vector<std::uint32_t> of_kept(order.size());

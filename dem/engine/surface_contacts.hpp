@@ -11,7 +11,7 @@
 
 namespace soilbin::dem {
 
-/// The same three numbers, as the laws take them and back.
+/// A vector as the laws take it, and back.
 inline Triple<double> triple(const Vec3& a) { return {a.x, a.y, a.z}; }
 inline Vec3 vec3(const Triple<double>& a) { return {a.x, a.y, a.z}; }
 
@@ -31,7 +31,7 @@ struct SurfaceContact {
   Memory<double> memory{};
 };
 
-/// Of one slab; both lists are in the order of who.
+/// Surface contacts of one slab; both lists are in the order of who.
 struct SurfaceContacts {
   std::vector<NearSurface> near;
   std::vector<SurfaceContact> made;

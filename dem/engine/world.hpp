@@ -52,13 +52,13 @@ struct World {
   Setup setup;
   State state;
 
-  // Of the setup.
+  // Made from the setup.
   LawTable laws;
   Kernels kernels{};
   int threads = 1;
   Margins margins;
 
-  // Of the last search.
+  // Made by the last search.
   KeptContacts kept;  ///< room for it
   Extents extents;
   Sleeping sleeping;
@@ -66,7 +66,7 @@ struct World {
   std::vector<int> blocks;    ///< of slabs that are worked on at once: first slab of each, and the end
   bool searched_now = false;  ///< in this step
 
-  // Of a step.
+  // Made in a step.
   Placed placed;
   PairSweep sweep{};
   std::vector<PairFindings> found;                           ///< of each slab

@@ -32,10 +32,9 @@ struct DemSettings {
   /// A finished run's restart goes when evaluate returns; false: it stays until whoever has put the answer where it is
   /// safe calls forget.
   bool forget_finished = true;
-  /// Who moves the grains of wheel runs: this program's own engine, or LAMMPS in processes of its own (drives stay
+  /// The engine of wheel runs: this program's own, or LAMMPS in processes of its own (drives stay
   /// with the engine, and beds but for settled_by).
   std::optional<LammpsWorker> lammps;
-  bool only_steady = false;                     ///< NoSolution where a run didn't become steady, instead of its means
   std::function<void(const WheelRun&)> on_run;  ///< gets everything a run told, before evaluate returns
 };
 
@@ -66,7 +65,7 @@ class DemModel : public Model {
   /// makes no sense or has no room for the wheel (way_in_bin), for a time step that is too long or too short, and for
   /// grains with which the work gets nowhere (check_pace).
   void check(const Scenario& scenario) const;
-  /// The same for a run at this condition: throws also where wheel_motion does, and for a speed or times of the rig
+  /// Checks a run at this condition: throws also where wheel_motion does, and for a speed or times of the rig
   /// with which the run would take more than 1e10 steps.
   void check(const Scenario& scenario, const OperatingCondition& at) const;
 
@@ -75,7 +74,7 @@ class DemModel : public Model {
 
   /// The bed that a scenario's soil gets.
   BedRecipe recipe(const Scenario& scenario) const;
-  /// That bed, from where beds are kept or settled now.
+  /// The bed of a recipe, from where beds are kept or settled now.
   std::shared_ptr<const SettledBed> bed(const BedRecipe& recipe) const;
 
  private:

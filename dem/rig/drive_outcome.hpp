@@ -19,7 +19,7 @@ struct GrainDriveEnergy : WheelEnergy {
   double damping = 0;  ///< lost in normal dashpots, and left in bonds that broke
   double stored = 0;   ///< the grains hold it: motion, height, springs; less what turning gravity brought in
   bool known = false;  ///< whether these four were counted (Rig::ledger)
-  /// Of the wheel's own balance: rounding alone.
+  /// What the wheel's own balance leaves over: rounding alone.
   double unaccounted() const { return left() - soil; }
   /// What the time step leaves over of the grains' balance; 0 where it was not counted.
   double soil_unaccounted() const { return known ? soil - sliding - rolling - damping - stored : 0.0; }

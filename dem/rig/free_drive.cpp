@@ -206,7 +206,7 @@ bool FreeDrive::goes_on() const {
   return record_.end == DriveEnd::time_is_up && record_.steps < all;
 }
 
-/// Of the next interval that has steps.
+/// Begins the sample of the next interval that has steps.
 void FreeDrive::begin_sample() {
   do ++interval_;
   while (end_of_interval() <= record_.steps);

@@ -20,7 +20,7 @@ std::vector<std::pair<std::string, std::string>> run_inputs(const BedRecipe& rec
 /// restart is good for the run of the same text.
 std::string inputs_text(const BedRecipe& recipe, const Tire& tire, const ContactPair& tire_contact, const Rig& rig,
                         const OperatingCondition& at);
-/// Of a drive that is told in so many samples.
+/// The inputs of a drive that is told in so many samples.
 std::string inputs_text(const BedRecipe& recipe, const Tire& tire, const ContactPair& tire_contact, const Rig& rig,
                         const Drive& drive, int samples);
 

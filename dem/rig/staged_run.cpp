@@ -17,7 +17,7 @@ constexpr const char* where_note = "stages";
 
 fs::path lock_of(const fs::path& restart) { return restart.string() + ".lock"; }
 
-/// Nothing is kept by two at once, nor where the disk refuses: the checkpoints then lose their path.
+/// Locks the restart; where another run holds it, or without a writable disk, disables checkpoints (no path).
 std::unique_ptr<const FileLock> lock_or_none(Checkpoints& checkpoints) {
   if (checkpoints.restart.empty()) return nullptr;
   std::string why = "another process is at the same run: this one can't be gone on with";

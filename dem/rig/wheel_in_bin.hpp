@@ -59,11 +59,11 @@ void parts(Notes& notes, SampleUnderWay& s) {
   notes(s.sum, s.steps, s.taken, s.begun, s.travel, s.work);
 }
 
-/// That the axle is kept from either end of the bin, at least, in outer radii (chosen): a wheel hangs over the end wall
+/// Least room between axle and either end of the bin, in outer radii (chosen): a wheel hangs over the end wall
 /// once it has sunk by 13 % of that radius. The paper's tire has 0.7.
 inline constexpr double least_room = 0.5;
 
-/// That the axle may go [m]. Throws InputError for a bed too short for the way or too narrow, and for an axle that
+/// The way that the axle may go [m]. Throws InputError for a bed too short for it or too narrow, and for an axle that
 /// least_room keeps from where it begins or ends.
 double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig);
 
@@ -125,11 +125,11 @@ class WheelInBinOf {
   const WheelStance& stance() const { return stance_; }
   /// Height of the undisturbed surface, mean over the track [m].
   double surface() const { return surface_; }
-  /// Of the whole bed, where the wheel is put down.
+  /// Height of the whole bed's surface, where the wheel is put down.
   const SurfaceHeight& before() const { return before_; }
   /// Where the axle is put down, x in the bin [m].
   double begin() const { return rig_.behind; }
-  /// Of the tread base below the undisturbed surface, now [m].
+  /// Depth of the tread base below the undisturbed surface, now [m].
   double sinkage() const { return surface_ - (wheel().position.z - tire_.radius); }
   double travel() const { return wheel().position.x - begin(); }
 

@@ -20,7 +20,7 @@ struct LengthUnit {
   const char* name;
   double metres;
 };
-/// Those that wheels are drawn in, the commonest first.
+/// The units that wheels are drawn in, the commonest first.
 inline constexpr std::array<LengthUnit, 4> drawing_units = {{{"mm", 1e-3}, {"m", 1}, {"cm", 1e-2}, {"inch", 0.0254}}};
 
 struct DrawnWheel {
@@ -46,7 +46,7 @@ struct DrawnWheel {
 /// fits, and what read_triangles and mended throw.
 DrawnWheel read_wheel(const std::filesystem::path& file, const Tire& tire);
 
-/// The same without a tire: the axle is the axis about which the wheel is as round as about no other, y where there is
+/// Reads a drawing without a tire: the axle is the axis of the roundest turn of the wheel, y where there is
 /// little between them, and the unit, where none is given, the first of drawing_units that makes the radius 10 mm to 3
 /// m. Throws InputError where none does.
 DrawnWheel read_wheel(const std::filesystem::path& file, std::optional<LengthUnit> unit);

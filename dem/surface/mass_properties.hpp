@@ -27,7 +27,7 @@ struct Sphere {
   double radius = 0;  ///< [m]
 };
 
-/// Of what the spheres fill together: where they overlap counts once. By the divergence theorem over the part of each
+/// Mass properties of the union of spheres: an overlap counts once. By the divergence theorem over the part of each
 /// sphere that no other hides, n its normal,
 ///   Int dV = Int x.n dA/3,  Int x dV = Int x (x.n) dA/4,  Int x_i x_j dV = Int x_i x_j (x.n) dA/5,
 /// in Gauss quadrature, latitude by latitude: to 1e-9 for two spheres, 1e-6 where three overlap. Throws InputError
@@ -42,7 +42,7 @@ struct PrincipalAxes {
 };
 PrincipalAxes principal_axes(const MassProperties& properties);
 
-/// Of a sphere of this radius [m], in [m^3] and, with a density [kg/m^3], in [kg].
+/// Volume [m^3] of a sphere of this radius [m], and its mass [kg] with a density [kg/m^3].
 constexpr double sphere_volume(double radius) { return 4.0 / 3 * std::numbers::pi * radius * radius * radius; }
 constexpr double sphere_mass(double density, double radius) {
   return density * 4 / 3 * std::numbers::pi * radius * radius * radius;

@@ -36,7 +36,7 @@ void weld(std::vector<Vec3>& vertices, std::vector<TriangleMesh::Corners>& trian
 void check_triangles(const std::vector<Vec3>& vertices, const std::vector<TriangleMesh::Corners>& triangles,
                      double distance, const std::string& name);
 
-/// Who is across each edge: at most one triangle, of the same orientation.
+/// Links triangles across each edge: at most one triangle, of the same orientation.
 std::vector<std::array<EdgeLink, 3>> link_edges(const std::vector<Vec3>& vertices,
                                                 const std::vector<TriangleMesh::Corners>& triangles,
                                                 const std::string& name);

@@ -9,7 +9,7 @@
 namespace soilbin::dem {
 namespace {
 
-/// Of two sides that meet in the corner of the widest angle: their cross product is the most exact.
+/// The unit normal, from the two sides that meet in the widest angle: their cross product is the most exact.
 Vec3 normal_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double ab = squared(b - a), bc = squared(c - b), ca = squared(a - c);
   if (bc >= ab && bc >= ca) return unit(cross(b - a, c - a));

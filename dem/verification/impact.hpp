@@ -6,7 +6,7 @@
 
 namespace soilbin::dem::verification {
 
-/// Of a wall that does not give [Pa].
+/// Stiffness of a wall that does not give [Pa].
 inline constexpr double rigid = 1e30;
 
 struct Impact {

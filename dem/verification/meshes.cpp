@@ -92,7 +92,7 @@ std::vector<Trial> trials() {
           {"bounces", {-0.15, -0.05, 0.03}, {1, 0.3, -0.5}, {0, -50, 20}, RollingLaw::directional, 0.1, 0.3}};
 }
 
-/// The same on a floor that is turned out of the axes, so that no number is round.
+/// Runs the trial on a floor that is turned out of the axes, so that no number is round.
 Simulation after(Body floor, const Trial& trial) {
   const Rotation tilt = rotation_by({0.3, -0.4, 0.2});
   floor.rotation = tilt;

@@ -69,7 +69,7 @@ class Lammps {
     void* handle_;
     int list_;
   };
-  /// Of pair_style gran/hooke. Only while forces are computed, or after.
+  /// Pairs of pair_style gran/hooke. Only while forces are computed, or after.
   Neighbours neighbours() const;
   /// Whether they were listed anew, and grains went to other processes and rows, just before these forces; the same on
   /// all processes.

@@ -18,7 +18,7 @@ std::array<int, 2> cells_in(double from, double to, double lower, double upper, 
   return {first(from), first(to)};
 }
 
-/// Of `whole`, this process's part.
+/// The part of `whole` that is this process's.
 Region meet(const Region& whole, const Region& part) {
   const Vec3 &a = whole.lower, &b = part.lower, &c = whole.upper, &d = part.upper;
   return {{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)},

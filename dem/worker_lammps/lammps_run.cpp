@@ -143,7 +143,7 @@ std::int64_t LammpsRun::steps_between_looks() const {
   return static_cast<std::int64_t>(std::clamp(grain_steps * ranks / simulation_->grain_count(), 1.0, 100.0));
 }
 
-/// Also writes a restart where it is due, and stops where any process was told to.
+/// Shows the stage, writes a restart where it is due, and stops where any process was told to.
 void LammpsRun::look(std::string_view stage, double share) {
   const std::chrono::duration<double> since = std::chrono::steady_clock::now() - written_;
   int asks[] = {how_.stop.stop_requested(), speaks() && since.count() >= between_};

@@ -34,7 +34,7 @@ class LammpsRun final : public RunStages {
   /// InputError where what lies in the folder is damaged.
   LammpsRun(MPI_Comm world, const WheelJob& job, const WorkOptions& how, std::filesystem::path folder = {},
             double seconds = 60);
-  /// Of a bed that is to settle: its grains are poured.
+  /// Begins a bed that is to settle: its grains are poured.
   LammpsRun(MPI_Comm world, const BedRecipe& recipe, const WorkOptions& how, std::filesystem::path folder = {},
             double seconds = 60);
 

@@ -198,7 +198,7 @@ void LammpsSimulation::note_who_is_here() {
   for (int row = 0; row < lammps_.count(); ++row) here_[static_cast<std::size_t>(rows.id[row])] = true;
 }
 
-/// Those of this process's grains, for its next step.
+/// Takes the contacts of this process's grains, for its next step.
 void LammpsSimulation::take_pairs(const std::vector<PairContact>& contacts) {
   for (const PairContact& contact : contacts)
     if (is_here(contact.first) || is_here(contact.second)) pairs_.take(contact);
@@ -245,7 +245,7 @@ void LammpsSimulation::write_grains(const std::string& file) const {
                {reinterpret_cast<const char*>(mine.data()), mine.size() * sizeof(PairContact)}, Keep::nothing);
 }
 
-/// Of those that had a grain next to or in this process's part.
+/// Reads the pairs that had a grain next to or in this process's part.
 void LammpsSimulation::read_pairs(const std::string& grains) {
   const double reach = 2 * largest_ + margin_;
   const Region here = part();
@@ -261,7 +261,7 @@ void LammpsSimulation::read_pairs(const std::string& grains) {
   }
 }
 
-/// Of all processes, by grain.
+/// The contacts of all processes, by grain.
 std::vector<LammpsTravelling> LammpsSimulation::all_contacts() const {
   std::vector<LammpsTravelling> mine;
   for (const SurfaceContact& contact : made_) mine.push_back({ids_[contact.who.grain], contact});

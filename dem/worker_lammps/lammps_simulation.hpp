@@ -73,7 +73,7 @@ class LammpsSimulation {
   MPI_Comm world() const { return world_; }
 
   void set_gravity(const Vec3& gravity) { state_.gravity = gravity; }
-  /// Of the grains' material with another, from the next step on.
+  /// Sets how the grains' material acts on another, from the next step on.
   void set_interaction(int a, int b, const Interaction& interaction);
   /// Takes away the grains of this process that `gone` holds for. All processes call it.
   void remove_grains(const std::function<bool(const Vec3& centre, double radius)>& gone);
@@ -92,7 +92,7 @@ class LammpsSimulation {
 
   /// Contacts of this process's grains with meshes, as of the last step.
   const std::vector<Contact>& contacts() const { return contacts_; }
-  /// Those that this process holds, now.
+  /// The grains that this process holds, now.
   Grains own_grains() const;
   /// Centre and radius of each, and of the copies of others' grains that lie next to them.
   void see_grains(const GrainSink& visit) const;

@@ -99,7 +99,7 @@ void drive_wheel(const fs::path& folder, bool writes, const dem::WorkOptions& ho
   if (writes) dem::write_answer(folder / "answer.txt", run);
 }
 
-/// The same on all processes, but the first writes.
+/// Does a job on all processes, of which the first writes.
 int do_job(const fs::path& folder, bool writes, const std::stop_token& stop) {
   const auto fail = [&](const char* kind, const std::exception& error) {
     if (writes) write_file_atomically(folder / "error.txt", fmt::format("{}\n{}\n", kind, error.what()));

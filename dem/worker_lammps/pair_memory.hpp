@@ -19,7 +19,7 @@
 
 namespace soilbin::dem {
 
-/// Of the first grain against the second; plain data, so that it can be sent and written.
+/// Contact of the first grain with the second; plain data, so that it can be sent and written.
 struct PairContact {
   int row_first = 0, row_second = 0;  ///< of this process, in this listing
   int first = 0, second = 0;          ///< ids

@@ -24,7 +24,7 @@ void sum_up(MPI_Comm world, std::span<double> numbers);
 /// What the first of the processes that found a fault says of it; "" where none did. All call it.
 std::string fault_of_any(MPI_Comm world, const std::string& mine);
 
-/// Those of all processes, on each.
+/// The values of all processes, on each.
 template <class T>
 std::vector<T> gathered(MPI_Comm world, const std::vector<T>& mine) {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -53,7 +53,7 @@ class Watch {
  public:
   explicit Watch(py::object progress) : progress_(std::move(progress)) {}
   void operator()(double share, std::string_view stage = "");
-  /// Of work that counts its steps; refers to this.
+  /// Progress of work that counts its steps; refers to this.
   auto of_steps() {
     return [this](std::size_t done, std::size_t total) {
       (*this)(static_cast<double>(done) / static_cast<double>(total));
@@ -122,7 +122,7 @@ py::array column(const std::vector<Row>& rows, const Member& member, py::handle 
 /// A vector of numbers as an array that looks into it.
 py::array view(const std::vector<double>& numbers, py::handle owner);
 
-/// The same with rows of `columns` numbers each.
+/// A view of rows of `columns` numbers each.
 py::array view(const std::vector<double>& numbers, py::ssize_t columns, py::handle owner);
 
 /// A dictionary of columns, in the order given.

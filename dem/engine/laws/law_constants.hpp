@@ -19,7 +19,7 @@ enum class RollingLaw : std::uint8_t {
 enum class TwistingLaw : std::uint8_t { none, marshall };
 enum class CohesionLaw : std::uint8_t { none, linear, jkr };
 
-/// Which laws act, in the whole run: asked once a batch, never once a contact.
+/// The laws that act, in the whole run: asked once a batch, never once a contact.
 struct LawFlags {
   NormalLaw normal = NormalLaw::hertz;
   RollingLaw rolling = RollingLaw::elastic_plastic;
@@ -27,7 +27,7 @@ struct LawFlags {
   TwistingLaw twisting = TwistingLaw::none;
 };
 
-/// Of a pair of materials (double), or of a pack of contacts. Kernels read them one after the other, as they stand here
+/// Constants of a pair of materials (double), or of a pack of contacts. Kernels read them in the order that stands here
 /// (kernels/pack_constants.hpp).
 template <class Real>
 struct LawConstants {
