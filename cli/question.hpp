@@ -84,7 +84,7 @@ class TireFlags {
   }
 
  private:
-  compare::LeftOut left_out_;
+  compare::TireLeftOut left_out_;
 };
 
 /// The notes, then what is doubtful in the answers.

@@ -110,7 +110,7 @@ void tell_of_size(const Tire& tire, std::vector<std::string>& notes) {
 
 }  // namespace
 
-std::vector<std::string> as_declared(Case& question, const LeftOut& left_out) {
+std::vector<std::string> as_declared(Case& question, const TireLeftOut& left_out) {
   std::vector<std::string> notes = without_effects(question, left_out);
   if (!question.scenario.soil.semi_empirical || question.study.conditions.empty()) return notes;
   for (const DeclaredByTire& declared : declared_by_tires)
@@ -119,7 +119,7 @@ std::vector<std::string> as_declared(Case& question, const LeftOut& left_out) {
   return notes;
 }
 
-std::vector<std::string> without_effects(Case& question, const LeftOut& left_out) {
+std::vector<std::string> without_effects(Case& question, const TireLeftOut& left_out) {
   std::vector<std::string> notes;
   tell_of_size(question.scenario.tire, notes);
   if (left_out.pressure) make_rigid(question, notes);

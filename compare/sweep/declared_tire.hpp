@@ -15,7 +15,7 @@
 namespace soilbin::compare {
 
 /// What of a tire is left out although it declares it.
-struct LeftOut {
+struct TireLeftOut {
   bool pressure = false;  ///< a rigid wheel
   bool lugs = false;      ///< a smooth one
 };
@@ -31,10 +31,10 @@ struct LeftOut {
 /// tire. Gives a sentence for each thing added or left out for nothing, and one for a tire that is known by its size
 /// alone. Throws InputError where a model names the effect of what is to be left out, where a condition tells the
 /// pressure, and where grains are asked, which meet the tire with its lugs.
-std::vector<std::string> as_declared(Case& question, const LeftOut& left_out);
+std::vector<std::string> as_declared(Case& question, const TireLeftOut& left_out);
 
 /// The same without adding any effect, where every effect was switched off by name.
-std::vector<std::string> without_effects(Case& question, const LeftOut& left_out);
+std::vector<std::string> without_effects(Case& question, const TireLeftOut& left_out);
 
 /// "inflation 150 kPa and carcass 20 kPa", of a tire that declares an inflation pressure.
 std::string ground_pressure_in_words(const Tire& tire);
