@@ -53,7 +53,7 @@ struct SoilBinFlags {
   std::string text(const std::string& flag) const;  ///< "" where it wasn't given
 
   void add_to(CLI::App& command);
-  /// Lengths, times and numerics of bed and rig alone: for who has flags of his own for the rest.
+  /// Flags of bed, rig and numerics only: their lengths, times and steps.
   void add_measures_to(CLI::App& command);
   /// What a bed hangs on alone, and threads: for who only settles beds.
   void add_bed_to(CLI::App& command);

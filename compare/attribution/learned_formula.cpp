@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/fit/factorizations.hpp"
 #include "compare/fit/thresholds.hpp"
 #include "compare/report/number_text.hpp"
 
@@ -60,7 +61,7 @@ class Library {
     const double narrowed = log_narrowing(m, VectorXd::Constant(m.rows(), size));
     m.diagonal().array() += 1 / (size * size);
     const VectorXd seen = seen_(terms);
-    return 0.5 * seen.dot(m.llt().solve(seen)) - narrowed;
+    return 0.5 * seen.dot(Cholesky(m).solve(seen)) - narrowed;
   }
   /// The size of most evidence.
   double best_size(const Combination& terms) const {

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <random>
 
+#include "compare/fit/factorizations.hpp"
+
 namespace soilbin::compare {
 
 using Eigen::Index;
@@ -142,7 +144,7 @@ double family_wise_p(const std::vector<Signature>& signatures, double observed, 
   const Index n = seen.size();
   MatrixXd directions(seen.front()->direction.size(), n);
   for (Index i = 0; i < n; ++i) directions.col(i) = seen[i]->direction;
-  const MatrixXd factor = gram_matrix(directions, 1e-8).llt().matrixL();
+  const Cholesky factor(gram_matrix(directions, 1e-8));
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   std::chi_squared_distribution<double> scale(std::max(1.0, freedom));
@@ -150,7 +152,7 @@ double family_wise_p(const std::vector<Signature>& signatures, double observed, 
   VectorXd z(n);
   for (int k = 0; k < simulations; ++k) {
     for (Index i = 0; i < n; ++i) z[i] = normal(random);
-    const VectorXd t = factor.triangularView<Eigen::Lower>() * z;
+    const VectorXd t = factor.half_times(z);
     double most = 0.0;
     for (Index i = 0; i < n; ++i) most = std::max(most, seen[i]->one_sided ? t[i] : std::abs(t[i]));
     if (most / std::sqrt(scale(random) / std::max(1.0, freedom)) >= observed) ++reached;

@@ -9,6 +9,7 @@
 
 #include "bekker_wong/gsl.hpp"
 #include "compare/discrepancy/comparison.hpp"
+#include "compare/fit/factorizations.hpp"
 #include "compare/fit/wheel_predictor.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/fitted_errors.hpp"
@@ -73,9 +74,7 @@ MatrixXd root_of_correlation(const std::vector<std::string>& parameters, const s
   MatrixXd together = MatrixXd::Identity(n, n);
   for (Index i = 0; i < n; ++i)
     for (Index k = 0; k < i; ++k) together(i, k) = together(k, i) = correlation(errors, parameters[i], parameters[k]);
-  const Eigen::LDLT<MatrixXd> parts(together);
-  const VectorXd sizes = parts.vectorD().cwiseMax(0.0).cwiseSqrt();
-  return parts.transpositionsP().transpose() * MatrixXd(MatrixXd(parts.matrixL()) * sizes.asDiagonal());
+  return Ldlt(together).square_root();
 }
 
 std::string why_not_tested(const Estimated& estimated) {
@@ -130,7 +129,7 @@ JointOutcome joint_test(const Side& reference, const Case& question, const Model
   inner.diagonal().array() += 1.0;
   test.values = static_cast<std::size_t>(white.size());
   test.chi2_soil_exact = white.squaredNorm();
-  test.chi2 = test.chi2_soil_exact - along.dot(inner.ldlt().solve(along));
+  test.chi2 = test.chi2_soil_exact - along.dot(Ldlt(inner).solve(along));
   test.freedom = estimated.freedom;
   const auto values = static_cast<double>(test.values);
   test.p_value = std::isinf(test.freedom) ? gsl::chi_square_tail(test.chi2, values)

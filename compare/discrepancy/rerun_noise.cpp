@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "compare/fit/factorizations.hpp"
 #include "compare/measured/channels.hpp"
 #include "scenario/estimate.hpp"
 
@@ -93,7 +94,7 @@ Eigen::Matrix4d correlation_of(const Eigen::MatrixXd& residuals) {
     }
   // Few re-runs, or a channel computed from another, give no matrix to invert: then channels count as independent.
   const Eigen::Matrix4d above_least = correlation - 1e-6 * Eigen::Matrix4d::Identity();
-  return above_least.llt().info() == Eigen::Success ? correlation : Eigen::Matrix4d::Identity();
+  return Cholesky(above_least).exists() ? correlation : Eigen::Matrix4d::Identity();
 }
 
 }  // namespace

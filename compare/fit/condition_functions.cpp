@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compare/fit/factorizations.hpp"
 #include "compare/fit/thresholds.hpp"
 
 namespace soilbin::compare {
@@ -98,10 +99,10 @@ VectorXd ridge(const MatrixXd& columns, const VectorXd& residual) {
   for (const double size : {0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0}) {
     MatrixXd m = gram;
     m.diagonal().array() += 1 / (size * size);
-    const Eigen::LLT<MatrixXd> llt(m);
-    const VectorXd found = llt.solve(seen);
-    const double gain = 0.5 * seen.dot(found) - llt.matrixLLT().diagonal().array().log().sum() -
-                        static_cast<double>(columns.cols()) * std::log(size);
+    const Cholesky factor(m);
+    const VectorXd found = factor.solve(seen);
+    const double gain =
+        0.5 * seen.dot(found) - factor.half_log_determinant() - static_cast<double>(columns.cols()) * std::log(size);
     if (gain > most) most = gain, weights = found;
   }
   return weights;

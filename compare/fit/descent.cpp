@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/fit/factorizations.hpp"
 #include "compare/fit/thresholds.hpp"
 
 namespace soilbin::compare {
@@ -40,8 +41,7 @@ double negligible(double chi2) { return std::max(2e-3, 1e-4 * chi2); }
 MatrixXd along(const MatrixXd& walls, const std::vector<int>& touched) {
   const Index n = walls.cols();
   if (touched.empty()) return MatrixXd::Identity(n, n);
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(walls(touched, Eigen::all).transpose());
-  return MatrixXd(qr.householderQ()).rightCols(n - qr.rank());
+  return orthogonal_complement(walls(touched, Eigen::all).transpose());
 }
 
 /// The walls that are touched and that the way downhill leads into.
@@ -51,7 +51,7 @@ std::vector<int> active_walls(const MatrixXd& walls, const VectorXd& room, const
     if (room[w] <= 0.0) touched.push_back(static_cast<int>(w));
   while (!touched.empty()) {
     const MatrixXd normals = walls(touched, Eigen::all).transpose();
-    const VectorXd push = normals.colPivHouseholderQr().solve(downhill);
+    const VectorXd push = least_squares(normals, downhill);
     Index least = 0;
     if (push.minCoeff(&least) >= 0.0) break;
     touched.erase(touched.begin() + least);
@@ -71,7 +71,7 @@ VectorXd damped_step(const AugmentedLine& l, const MatrixXd& walls, const Vector
     const MatrixXd free = along(walls, touched);
     if (free.cols() == 0) break;
     const VectorXd way =
-        free * (free.transpose() * normal * free).ldlt().solve(free.transpose() * (downhill - normal * step));
+        free * Ldlt(free.transpose() * normal * free).solve(VectorXd(free.transpose() * (downhill - normal * step)));
     double reach = 1.0;
     int stops = -1;
     for (Index w = 0; w < room.size(); ++w) {
@@ -185,7 +185,7 @@ VectorXd Descent::strengthening_direction() const {
   MatrixXd cost = kept.transpose() * kept;
   cost.diagonal().array() += 1e-10;
   const VectorXd carries_more = -(slopes_.shortfall_slopes * scale_.asDiagonal()).colwise().sum().transpose();
-  return cost.ldlt().solve(carries_more).cwiseProduct(scale_);
+  return Ldlt(cost).solve(carries_more).cwiseProduct(scale_);
 }
 
 /// How far each wall is, not less than 0; what a last digit leaves is nothing.

@@ -115,14 +115,14 @@ MatrixXd without_amplitudes(const LinearProblem& problem) {
 
 /// ln det of the Gram matrix.
 double log_determinant(const MatrixXd& columns) {
-  return 2 * gram_matrix(columns, 1e-9).llt().matrixLLT().diagonal().array().log().sum();
+  return 2 * Cholesky(gram_matrix(columns, 1e-9)).half_log_determinant();
 }
 
 /// 1 + S G S.
-Eigen::LLT<MatrixXd> widening(const MatrixXd& gram, const VectorXd& sd) {
+Cholesky widening(const MatrixXd& gram, const VectorXd& sd) {
   MatrixXd m = sd.asDiagonal() * gram * sd.asDiagonal();
   m.diagonal().array() += 1.0;
-  return Eigen::LLT<MatrixXd>(m);
+  return Cholesky(m);
 }
 
 /// Whitened columns over the cells, padded with zeros to the problem's rows.
@@ -141,9 +141,7 @@ double log_mean_exp(const std::vector<double>& logs) {
   return top + std::log(sum / static_cast<double>(logs.size()));
 }
 
-double log_narrowing(const MatrixXd& gram, const VectorXd& sd) {
-  return widening(gram, sd).matrixLLT().diagonal().array().log().sum();
-}
+double log_narrowing(const MatrixXd& gram, const VectorXd& sd) { return widening(gram, sd).half_log_determinant(); }
 
 double log_evidence(const LinearProblem& exact, const std::vector<Tolerance>& tolerances) {
   const MatrixXd others = without_amplitudes(exact), columns = side_by_side(exact.cells, tolerances);
@@ -194,7 +192,7 @@ JoinedColumns::JoinedColumns(const LinearProblem& problem, const MatrixXd& colum
 }
 
 double JoinedColumns::taken(const VectorXd& sd) const {
-  return 0.5 * widening(gram_, sd).matrixL().solve(sd.cwiseProduct(seen_)).squaredNorm();
+  return 0.5 * widening(gram_, sd).half_solve(VectorXd(sd.cwiseProduct(seen_))).squaredNorm();
 }
 
 double JoinedColumns::gain(double size) const {

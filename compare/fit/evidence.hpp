@@ -9,19 +9,11 @@
 #include <span>
 #include <vector>
 
+#include "compare/fit/factorizations.hpp"
 #include "compare/fit/fitted_model.hpp"
 #include "compare/fit/thresholds.hpp"
 
 namespace soilbin::compare {
-
-// Orthogonal projection off what some columns span.
-
-/// An orthonormal basis of what these columns span; fewer columns where some are combinations of others.
-inline Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
-  if (columns.cols() == 0) return Eigen::MatrixXd(columns.rows(), 0);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
-}
 
 /// P = I - Q Q', Q an orthonormal basis of the columns: what is left of a vector that they cannot make.
 class Projector {

@@ -24,11 +24,11 @@ constexpr double ridge_of_errors = 1e-12, ridge_of_forecasts = 1e-9;
 FittedModel::FittedModel(std::shared_ptr<const Dataset> data, WheelPredictor predictor, Fit fit)
     : data_(std::move(data)), predictor_(std::move(predictor)), fit_(std::move(fit)) {}
 
-Eigen::LDLT<MatrixXd> FittedModel::information(double ridge) const { return gram_matrix(fit_.columns, ridge).ldlt(); }
+Ldlt FittedModel::information(double ridge) const { return Ldlt(gram_matrix(fit_.columns, ridge)); }
 
 MatrixXd FittedModel::covariance() const {
   const Index free = fit_.columns.cols();
-  return information(ridge_of_errors).solve(MatrixXd::Identity(free, free));
+  return information(ridge_of_errors).solve(MatrixXd(MatrixXd::Identity(free, free)));
 }
 
 VectorXd FittedModel::standard_errors() const {
@@ -58,7 +58,7 @@ VectorXd FittedModel::errors_held_or_free() const {
 
 double FittedModel::absorbed_freedom() const {
   const MatrixXd seen = fit_.columns.topRows(data_->cells());
-  return information(ridge_of_errors).solve(seen.transpose() * seen).trace();
+  return information(ridge_of_errors).solve(MatrixXd(seen.transpose() * seen)).trace();
 }
 
 VectorXd FittedModel::contribution(int term) const {
@@ -114,7 +114,7 @@ std::optional<Forecast> FittedModel::forecast(const Observations& runs, BalanceM
     const int p = fit_.column_parameter[c];
     forecast.slopes.col(c) = slopes->jacobian.col(p) * predictor_.parameters()[p].scale;
   }
-  forecast.solved = information(ridge_of_forecasts).solve(forecast.slopes.transpose());
+  forecast.solved = information(ridge_of_forecasts).solve(MatrixXd(forecast.slopes.transpose()));
   return forecast;
 }
 

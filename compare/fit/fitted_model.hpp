@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compare/fit/bounded_fit.hpp"
+#include "compare/fit/factorizations.hpp"
 
 namespace soilbin::compare {
 
@@ -81,7 +82,7 @@ class FittedModel {
 
  private:
   /// C^-1 of the free parameters in units of their scale: G'G + ridge.
-  Eigen::LDLT<Eigen::MatrixXd> information(double ridge) const;
+  Ldlt information(double ridge) const;
   Eigen::MatrixXd covariance() const;  ///< C, in units of the parameters' scale
 
   std::shared_ptr<const Dataset> data_;

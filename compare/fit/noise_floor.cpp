@@ -8,6 +8,7 @@
 
 #include "bekker_wong/gsl.hpp"
 #include "compare/fit/condition_functions.hpp"
+#include "compare/fit/factorizations.hpp"
 #include "compare/fit/setpoint_squares.hpp"
 #include "compare/fit/thresholds.hpp"
 #include "compare/measured/within_run_scatter.hpp"
@@ -53,9 +54,7 @@ Whitening::Whitening(const Observations& observations, const NoiseFloor& noise, 
                            noise.channels[b.channel].sd(prediction[first + j], b.spread) /
                            std::sqrt(counts[first + i] * counts[first + j]);
       }
-    const MatrixXd factor = covariance.llt().matrixL();
-    blocks_.push_back(
-        {static_cast<Index>(first), factor.triangularView<Eigen::Lower>().solve(MatrixXd::Identity(n, n))});
+    blocks_.push_back({static_cast<Index>(first), Cholesky(covariance).half_solve(MatrixXd(MatrixXd::Identity(n, n)))});
     first = last;
   }
 }
@@ -78,11 +77,10 @@ VectorXd Whitening::operator()(const VectorXd& column) const { return whitened(c
 Whitening Whitening::beside(const MatrixXd& columns) const {
   const Index wide = std::min(columns.rows(), columns.cols());
   Whitening joined = *this;
-  joined.term_basis_ =
-      Eigen::HouseholderQR<MatrixXd>(columns).householderQ() * MatrixXd::Identity(columns.rows(), wide);
+  joined.term_basis_ = leading_orthonormal(columns, wide);
   const MatrixXd r = joined.term_basis_.transpose() * columns, one = MatrixXd::Identity(wide, wide);
   joined.term_columns_ = columns;
-  joined.term_change_ = MatrixXd(one + r * r.transpose()).llt().matrixL().solve(one) - one;
+  joined.term_change_ = Cholesky(one + r * r.transpose()).half_solve(one) - one;
   return joined;
 }
 
@@ -105,7 +103,7 @@ void PartialChi2::add(Index first, const VectorXd& residual) {
 
 bool PartialChi2::exceeds(double limit) const {
   if (!(squares_ > limit)) return false;
-  return projection_.size() == 0 || squares_ - projection_.dot(information_.llt().solve(projection_)) > limit;
+  return projection_.size() == 0 || squares_ - projection_.dot(Cholesky(information_).solve(projection_)) > limit;
 }
 
 MatrixXd Whitening::term() const {
@@ -113,8 +111,7 @@ MatrixXd Whitening::term() const {
   for (const Block& b : blocks_) {
     if (columns.size() == 0) break;
     const Index n = b.inverse_factor.rows();
-    columns.middleRows(b.first, n) =
-        b.inverse_factor.triangularView<Eigen::Lower>().solve(term_columns_.middleRows(b.first, n));
+    columns.middleRows(b.first, n) = solve_lower(b.inverse_factor, term_columns_.middleRows(b.first, n));
   }
   return columns;
 }
@@ -139,10 +136,10 @@ class VarianceComponents {
     const VectorXd d = weights(tau);
     MatrixXd m = d.asDiagonal() * gram_ * d.asDiagonal() / (sigma * sigma);
     m.diagonal().array() += 1.0;
-    const Eigen::LLT<MatrixXd> llt(m);
+    const Cholesky factor(m);
     const VectorXd b = d.cwiseProduct(projected_) / sigma;
-    const double fit = (e_.squaredNorm() - llt.matrixL().solve(b).squaredNorm()) / (sigma * sigma);
-    const double log_det = 2 * llt.matrixLLT().diagonal().array().log().sum();
+    const double fit = (e_.squaredNorm() - factor.half_solve(b).squaredNorm()) / (sigma * sigma);
+    const double log_det = 2 * factor.half_log_determinant();
     return 2 * static_cast<double>(n_) * std::log(sigma) + log_shape_ + log_det + fit;
   }
 
@@ -153,9 +150,9 @@ class VarianceComponents {
     const VectorXd d = weights(tau);
     MatrixXd m = d.asDiagonal() * gram_ * d.asDiagonal() / (sigma * sigma);
     m.diagonal().array() += 1.0;
-    const Eigen::LLT<MatrixXd> llt(m);
-    const MatrixXd scaled = a_ * d.asDiagonal() / sigma;            // n x q
-    const MatrixXd half = llt.matrixL().solve(scaled.transpose());  // q x n; smoother = half' half
+    const Cholesky factor(m);
+    const MatrixXd scaled = a_ * d.asDiagonal() / sigma;                    // n x q
+    const MatrixXd half = factor.half_solve(MatrixXd(scaled.transpose()));  // q x n; smoother = half' half
     plain = e_ - half.transpose() * (half * e_);
     const VectorXd leverage = half.colwise().squaredNorm();
     trace = leverage.sum();
@@ -367,7 +364,7 @@ Eigen::Matrix4d correlation_of(const MatrixXd& standard) {
   // Cholesky tells the smallest eigenvalue, at ten seconds less to compile than eigenvalues.
   const auto possible = [&] {
     const Eigen::Matrix4d above = correlation - min_correlation_eigenvalue * Eigen::Matrix4d::Identity();
-    return above.llt().info() == Eigen::Success;
+    return Cholesky(above).exists();
   };
   while (!possible()) {
     correlation *= 0.7;

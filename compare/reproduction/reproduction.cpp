@@ -9,6 +9,7 @@
 #include <limits>
 #include <random>
 
+#include "compare/fit/factorizations.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/sweep/varying.hpp"
@@ -100,7 +101,7 @@ double curvature_share(const Curve& curve) {
     design.row(k) << root, root * u, root * u * u;
     values(k) = root * point.y;
   }
-  const Eigen::VectorXd c = design.colPivHouseholderQr().solve(values);
+  const Eigen::VectorXd c = least_squares(design, values);
   return c(2) / (4 * c(1));
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "compare/fit/factorizations.hpp"
 #include "compare/fit/thresholds.hpp"
 
 namespace soilbin::compare {
@@ -113,7 +114,7 @@ MatrixXd EffectShapes::off_soil(const MatrixXd& information) const {
   MatrixXd of_soil = information.bottomRightCorner(soil, soil);
   of_soil.diagonal().array() += 1.0;  // the priors
   const MatrixXd shared = information.bottomLeftCorner(soil, k);
-  return information.topLeftCorner(k, k) - shared.transpose() * of_soil.llt().solve(shared);
+  return information.topLeftCorner(k, k) - shared.transpose() * Cholesky(of_soil).solve(shared);
 }
 
 ExpectedNoise usual_noise(const Campaign& campaign, const std::vector<OperatingCondition>& conditions) {

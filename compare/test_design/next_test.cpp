@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/fit/factorizations.hpp"
 #include "compare/measured/condition_views.hpp"
 
 namespace soilbin::compare {
@@ -65,7 +66,7 @@ double squared_distance(const RunForecast& a, const RunForecast& b, const NoiseF
     for (Index j = 0; j < spread.cols(); ++j)
       spread(i, j) += noise.correlation(measured[i], measured[j]) * sd(measured[i]) * sd(measured[j]);
   const VectorXd gap = (a.mean - b.mean)(measured);
-  return gap.dot(spread.ldlt().solve(gap));
+  return gap.dot(Ldlt(spread).solve(gap));
 }
 
 /// Who takes part, the best one first; it alone where what stands behind it is excluded already.

@@ -53,7 +53,7 @@ void set_up_sweep(World& world) {
   world.placed.place(s.bodies);
 }
 
-/// What neighbours that are awake, and surfaces after a search, press on a slab asleep is let go.
+/// Clears the loads that neighbours awake, and surfaces after a search, put on a sleeping slab.
 void clear_sleeping_loads(World& world, int slab) {
   if (world.sleeping.next_sleeps(slab) && world.sleeping.previous_sleeps(slab) && !world.searched_now) return;
   const std::uint32_t first = world.state.slab_rows[slab], last = world.state.slab_rows[slab + 1];
