@@ -32,7 +32,7 @@ std::vector<std::string> effects_of(const Case& question) {
   return all;
 }
 
-std::string why_refused(Case question, const LeftOut& left_out) {
+std::string why_refused(Case question, const TireLeftOut& left_out) {
   try {
     as_declared(question, left_out);
   } catch (const InputError& error) {
