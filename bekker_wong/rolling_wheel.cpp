@@ -223,14 +223,23 @@ bool RollingWheel::is_smallest(const Prepared& p, double log_theta) const {
 }
 
 /// The share of its stresses with which a patch carries the load. Added forces carry too, and some of them rise with
-/// the stresses, in proportion: those of faces that soil is pressed against.
+/// the stresses: those of faces that soil is pressed against, in proportion until the soil gives way.
 double RollingWheel::carrying_share(const Prepared& p, const ContactPatch& patch) const {
   const double by_stresses = pressed(p, patch), by_forces = lifted(p, patch);
   if (by_forces == 0.0) return p.around.normal_load / by_stresses;
   ContactPatch bare = patch;
   for (auto member : stress_members) std::ranges::fill(bare.of(member), 0.0);
-  const double alone = lifted(p, bare);
-  return (p.around.normal_load - alone) / (by_stresses + (by_forces - alone));
+  const double load = p.around.normal_load, alone = lifted(p, bare);
+  double share = (load - alone) / (by_stresses + (by_forces - alone));
+  for (int round = 0; round < 50 && share > 0.0; ++round) {  // where the forces are not in proportion
+    for (auto member : stress_members)
+      for (std::size_t i = 0; i < static_cast<std::size_t>(patch.count); ++i)
+        (bare.*member)[i] = share * (patch.*member)[i];
+    const double missing = load - share * by_stresses - lifted(p, bare);
+    if (!(std::abs(missing) > 1e-12 * load)) break;
+    share += missing / by_stresses;
+  }
+  return share;
 }
 
 FirstRoot RollingWheel::balance(Prepared& p, const NearBalance& known, ContactPatch& patch) const {

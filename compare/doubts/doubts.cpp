@@ -10,11 +10,11 @@
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/learned.hpp"
 #include "bekker_wong/model.hpp"
-#include "bekker_wong/presumption.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 #include "compare/doubts/column_doubts.hpp"
 #include "compare/doubts/declared_doubts.hpp"
 #include "compare/doubts/grain_doubts.hpp"
+#include "compare/doubts/pull_without_slip.hpp"
 #include "compare/doubts/row_doubts.hpp"
 #include "compare/doubts/unused_inputs.hpp"
 #include "compare/report/number_text.hpp"
@@ -160,7 +160,8 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings&
   if (modulus > length)
     warnings.push_back(fmt::format("K ({:.3g} mm) is longer than the contact ({:.3g} mm){}: shear hardly develops",
                                    1000 * modulus, 1000 * length, at));
-  for (std::string words : {too_flat(scenario, answer), taken_as_rigid(scenario, answer)})
+  for (std::string words :
+       {too_flat(scenario, answer), taken_as_rigid(scenario, answer), pull_without_slip(scenario, answer)})
     if (!words.empty()) warnings.push_back(std::move(words));
 }
 

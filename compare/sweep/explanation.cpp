@@ -7,6 +7,7 @@
 
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/model.hpp"
+#include "bekker_wong/presumption.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "scenario/errors.hpp"
@@ -252,14 +253,41 @@ std::string pressure_remark(const Scenario& scenario, const OperatingCondition& 
       carried > std::max(critical, most) ? "rolls as if rigid" : "flattens; add --effect tire_flexibility");
 }
 
+/// What this soil bears forward at the most, on the surface through the tips of the lugs where the model has them.
+Step largest_thrust(const Facts& f) {
+  double lugs = 0.0;
+  for (const EffectChoice& effect : f.scenario.effects) {
+    const EffectForm& form = bekker_wong::find_form(effect);
+    if (!depends_on(form, "lugs")) continue;
+    lugs = f.scenario.tire.lugs.height;
+    for (const bekker_wong::Presumed& one : bekker_wong::presumed(form, f.scenario.tire))
+      if (one.key == "lugs.height") lugs = one.value;
+  }
+  double length = 0.0, faces = 0.0;
+  for (const double arc : f.wheel.patch.of(&bekker_wong::ContactPatch::arc)) length += arc;
+  for (const auto& added : f.wheel.forces.added.rows())
+    if (added.name == "lug_thrust") faces += added.forward;
+  const double area = f.b * length * (1 + lugs / f.r), thrust = f.wheel.forces.thrust + faces;
+  const double most = f.soil.cohesion * area + f.normal_load * std::tan(f.soil.friction_angle);
+  std::string remark = fmt::format("the model's thrust is {:.4g} N", thrust);
+  if (faces != 0.0) remark += fmt::format(", {:.4g} N of it by the faces of the lugs", faces);
+  if (thrust > most * (1 + 1e-9)) remark += ": more, as an effect raises the soil's strength";
+  return {"largest thrust of this soil",
+          lugs > 0.0 ? "c A + W_n tan phi, A = b L (r + h)/r over the contact's length L"
+                     : "c A + W_n tan phi, A = b L over the contact's length L",
+          fmt::format("{:.4g} kPa * {:.4g} m^2 + {:.4g} N tan {:.4g} deg", f.soil.cohesion / 1000, area, f.normal_load,
+                      f.soil.friction_angle / degree),
+          most,
+          "N",
+          remark};
+}
+
 std::vector<Step> closed_forms(const Facts& f, const TractionResult& result) {
   const SoilValues& soil = f.declared;
   const double z0 = bekker_wong::bekker_static_sinkage(soil, f.r, f.b, f.at.load), n = soil.exponent;
   const double rolling = bekker_wong::rolling_resistance(soil, f.r, f.b, f.at.load);
   const double critical = bekker_wong::critical_ground_pressure(soil, f.r, f.b, f.at.load);
   const double eq5 = bekker_wong::paper::sinkage(soil, f.r, f.b, f.at.load, f.at.slip, f.theta_m);
-  const double area = f.r * f.b * f.theta_1;
-  const double thrust = soil.cohesion * area + f.normal_load * std::tan(soil.friction_angle);
   return {
       {"Bekker's static sinkage", "z_0 = [3 W/((3 - n) b k sqrt(D))]^(2/(2n + 1))",
        fmt::format("[3 * {:.4g} N / ({:.4g} * {:.4g} m * k * sqrt({:.4g} m))]^{:.4g}", f.at.load, 3 - n, f.b, 2 * f.r,
@@ -270,10 +298,7 @@ std::vector<Step> closed_forms(const Facts& f, const TractionResult& result) {
        fmt::format("the model's compaction resistance is {:.4g} N", -f.wheel.forces.compaction)},
       {"critical ground pressure", "p_gcr = k z_0^n", fmt::format("k ({:.4g} m)^{:.4g}", z0, n), critical / 1000, "kPa",
        pressure_remark(f.scenario, f.at, critical, largest_stress(f))},
-      {"largest thrust of this soil", "c r b theta_1 + W_n tan phi",
-       fmt::format("{:.4g} kPa * {:.4g} m^2 + {:.4g} N tan {:.4g} deg", soil.cohesion / 1000, area, f.normal_load,
-                   soil.friction_angle / degree),
-       thrust, "N", fmt::format("the model's thrust is {:.4g} N", f.wheel.forces.thrust)},
+      largest_thrust(f),
       {"Eq. 5 of Zhou, Gao, Li, Hu as it stands", "z = z_0 + (D/2) (1 - i) theta_m",
        fmt::format("{:.4g} mm + {:.4g} mm * {:.4g} * {:.4g} rad", 1000 * z0, 1000 * f.r, 1 - f.at.slip, f.theta_m),
        1000 * eq5, "mm",

@@ -1,4 +1,8 @@
-// lug_thrust: what lugs add to the tread's shear.
+// lug_thrust: what lugs add to the tread's shear, and that it ends where the soil does.
+#include <fmt/core.h>
+
+#include <numeric>
+
 #include "bekker_wong/bed_fixture.hpp"
 #include "bekker_wong/earth_pressure.hpp"
 
@@ -92,16 +96,22 @@ TEST(LugThrust, SideFactorInSandIsFriction) {
 }
 
 // In clay (phi = 0, K -> 0) a blade holds b (gamma h^2/2 + 2 c h), r theta_1/(2 pi r/24) of them stand in the contact,
-// and each turns the axle at r + h/2.
+// and each turns the axle at r + h/2; a quarter of the lug height acts. Of all of it the soil bears no more than what
+// the tread, c b r sin(theta_1), leaves of c b (r + h) theta_1.
 TEST(LugThrust, FreeBladesInClosedForm) {
   SoilValues clay = sand();
   clay.friction_angle = 0, clay.shear_modulus = 1e-12, clay.cohesion = 5000;
-  const EffectList effects = make_effects({{"lug_thrust", "free_blade", {{"a", 1.0}}}});
-  const RolledWheel w = RollingWheel(smooth(), clay, effects).roll(driven(800, 0.5));
-  const double h = 0.05 * radius, blade = width * (0.5 * 1600 * 9.80665 * h * h + 2 * 5000 * h);
+  const auto roll = [&](double a) {
+    return RollingWheel(smooth(), clay, make_effects({{"lug_thrust", "free_blade", {{"a", a}}}}))
+        .roll(driven(800, 0.5));
+  };
+  const RolledWheel w = roll(0.25), all = roll(1.0);
+  const double h = 0.25 * 0.05 * radius, blade = width * (0.5 * 1600 * 9.80665 * h * h + 2 * 5000 * h);
   ASSERT_EQ(w.forces.added.rows().size(), 1u);
   EXPECT_NEAR(w.forces.added.rows()[0].torque, 24 * w.balance_angle / (2 * std::numbers::pi) * blade * (radius + h / 2),
               1e-8);
+  const double theta = all.balance_angle;
+  EXPECT_NEAR(all.forces.added.rows()[0].forward, 5000 * width * radius * (1.05 * theta - std::sin(theta)), 1e-8);
 }
 
 // A track's lugs push by the way that they slide: not at all where the wheel doesn't slip, backward where it is braked.
@@ -144,6 +154,172 @@ TEST(LugThrust, TakesWhatTheTireDeclares) {
   EXPECT_NEAR(thrust(lugged), 2 * thrust(smooth()), 1e-12);
   lugged.lugs.height = 0.02;
   EXPECT_GT(thrust(lugged), 2.1 * thrust(smooth()));
+}
+
+/// Upland sandy loam (Wong 1980).
+SoilValues sandy_loam() {
+  return {.exponent = 1.10,
+          .k_c = 74.6e3,
+          .k_phi = 2080e3,
+          .cohesion = 3300,
+          .friction_angle = 33.7 * degree,
+          .shear_modulus = 0.02,
+          .c1 = 0.18,
+          .c2 = 0.32,
+          .density = 1550};
+}
+
+SoilValues clay() {
+  SoilValues soil = sandy_loam();
+  soil.exponent = 0.5, soil.k_c = 13.2e3, soil.k_phi = 692e3, soil.cohesion = 4140, soil.friction_angle = 13 * degree;
+  return soil;
+}
+
+Tire lugged(double r, double b, double height, int count) {
+  Tire tire;
+  tire.radius = r, tire.width = b;
+  tire.lugs = {.height = height, .count = count, .thickness = {}};
+  return tire;
+}
+
+double faces(const RolledWheel& w) {
+  double sum = 0.0;
+  for (const AddedForce& row : w.forces.added.rows()) sum += row.forward;
+  return sum;
+}
+
+/// c A + W tan phi on the surface through the tips of the lugs.
+double bound(const RolledWheel& w, const Tire& tire, const SoilValues& soil, double load) {
+  const std::span<const double> arcs = w.patch.of(&ContactPatch::arc);
+  const double length = std::accumulate(arcs.begin(), arcs.end(), 0.0);
+  return soil.cohesion * tire.width * length * (1 + tire.lugs.height / tire.radius) +
+         load * std::tan(soil.friction_angle);
+}
+
+struct Ground {
+  const char* name;
+  SoilValues soil;
+};
+
+struct Wheel {
+  double radius, width, load;
+};
+
+// However many lugs, however high, however much of them acts: the soil between them shears off on the surface through
+// their tips, and what that bears is the end. 'Nothing carries' is an answer as well; a lifted wheel is not.
+TEST(LugThrust, NeverPassesWhatTheSoilBears) {
+  const std::vector<Ground> grounds = {{"sand", sand()}, {"sandy loam", sandy_loam()}, {"clay", clay()}};
+  const std::vector<Wheel> wheels = {{0.1, 0.08, 60}, {0.25, 0.1, 300}, {0.65, 0.42, 20e3}};
+  int answers = 0, near = 0;
+  for (const EffectForm& form : effect_catalogue()) {
+    if (form.id != "lug_thrust") continue;
+    const EffectParameter& a = form.parameters[0];
+    for (const double amplitude : {a.fallback, 1.0, a.upper}) {
+      const EffectList effects = make_effects({{form.id, form.form, {{a.name, amplitude}}}});
+      for (const Ground& ground : grounds)
+        for (const Wheel& wheel : wheels)
+          for (const int count : {8, 24, 150})
+            for (const double height : {0.01, 0.05, 0.3})
+              for (const double share : {0.2, 1.0})
+                for (const double slip : {0.0, 0.05, 0.3, 1.0}) {
+                  const Tire tire = lugged(wheel.radius, wheel.width, height * wheel.radius, count);
+                  const double load = share * wheel.load;
+                  try {
+                    const RolledWheel w = RollingWheel(tire, ground.soil, effects).roll(driven(load, slip));
+                    const double thrust = w.forces.thrust + faces(w), most = bound(w, tire, ground.soil, load);
+                    ++answers;
+                    if (thrust > 0.9 * most) ++near;
+                    EXPECT_LE(thrust, most * (1 + 1e-9))
+                        << fmt::format("{}, a = {}, {}, r {}, {} lugs of {} r, {} N, slip {}", form.form, amplitude,
+                                       ground.name, wheel.radius, count, height, load, slip);
+                    EXPECT_NEAR(w.forces.vertical, load, 1e-9 * load);
+                  } catch (const NoSolution& error) {
+                    EXPECT_EQ(std::string(error.what()).find("lift"), std::string::npos) << form.form << error.what();
+                  }
+                }
+    }
+  }
+  EXPECT_GT(answers, 8000);
+  EXPECT_GT(near, 100) << "the limit is reached";
+}
+
+// More lugs and higher ones never push less, in the same place.
+TEST(LugThrust, RisesWithNumberAndHeight) {
+  for (const char* form : {"passive_blade", "free_blade", "level_blade", "side_factors"})
+    for (const double slip : {0.05, 0.3, 0.9}) {
+      const EffectList effects = make_effects({{"lug_thrust", form, {}}});
+      const auto thrust = [&](int count, double height) {
+        const RolledWheel w = RollingWheel(lugged(radius, width, height * radius, count), sand(), effects)
+                                  .at_entry_angle(driven(300, slip), 0.5);
+        return w.forces.thrust + faces(w);
+      };
+      double before = 0.0;
+      for (const int count : {8, 12, 16, 24, 32, 48, 64, 96, 150}) {
+        EXPECT_GE(thrust(count, 0.05), before * (1 - 1e-12)) << form << ", " << count << " lugs, slip " << slip;
+        before = thrust(count, 0.05);
+      }
+      before = 0.0;
+      for (const double height : {0.01, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3}) {
+        EXPECT_GE(thrust(24, height), before * (1 - 1e-12)) << form << ", height " << height << " r, slip " << slip;
+        before = thrust(24, height);
+      }
+    }
+}
+
+// After Skonieczny, Moreland and Wettergreen: with h/r = 0.1 and z/r = 0.2 lugs 0.155 rad apart are close enough: as
+// many as 2 pi/0.155 = 40 push for themselves, and 60, 96 or 150 push as 40 do.
+TEST(LugThrust, MoreLugsThanTheSpacingRuleAsksForAddNothing) {
+  const double z = 0.2, h = 0.1, surface = (1 - z) * (1 - z);
+  const double apart = std::sqrt((1 + h) * (1 + h) - surface) - std::sqrt(1 - surface);
+  EXPECT_NEAR(apart, 0.1550, 1e-4);
+  const EffectList effects = make_effects({{"lug_thrust", "level_blade", {{"a", 0.01}}}});
+  const auto push = [&](int count) {
+    return faces(RollingWheel(lugged(radius, width, h * radius, count), sand(), effects)
+                     .at_entry_angle(driven(300, 0.3), std::acos(1 - z)));
+  };
+  EXPECT_NEAR(push(60), push(10) / 10 * 2 * std::numbers::pi / apart, 1e-9 * push(60));
+  EXPECT_DOUBLE_EQ(push(96), push(60));
+  EXPECT_DOUBLE_EQ(push(150), push(60));
+  EXPECT_NEAR(push(20), 2 * push(10), 1e-12);
+}
+
+// A tread base that sinks by 3 mm does not bury lugs of 30 mm: they act as lugs of 3 mm.
+TEST(LugThrust, LugsActAsFarAsTheyAreBuried) {
+  const double z = 0.003, theta = std::acos(1 - z / radius);
+  for (const char* form : {"passive_blade", "free_blade", "level_blade"}) {
+    const EffectList effects = make_effects({{"lug_thrust", form, {{"a", 0.1}}}});
+    const auto push = [&](double height) {
+      return faces(
+          RollingWheel(lugged(radius, width, height, 8), sand(), effects).at_entry_angle(driven(300, 0.3), theta));
+    };
+    EXPECT_NEAR(push(0.030), push(0.015), 1e-9 * push(0.015)) << form;
+    EXPECT_NEAR(push(0.001), 1.0 / 2 * push(0.002), 0.35 * push(0.001)) << form << ": those are buried";
+    EXPECT_LT(push(0.002), push(0.015)) << form;
+  }
+}
+
+// A heavy tire, about a 16.00R20, on upland sandy loam: at a = 1 its blades gave 32.1 kN where the soil bears 24.0.
+TEST(LugThrust, AHeavyTireEndsAtTheSoilsBound) {
+  const Tire tire = lugged(0.67, 0.43, 0.03, 36);
+  const EffectList effects = make_effects({{"lug_thrust", "passive_blade", {{"a", 1.0}}}});
+  for (const double load : {10e3, 20e3, 30e3, 40e3, 60e3})
+    for (const double slip : {0.0, 0.1, 0.2, 0.5, 1.0}) {
+      const RolledWheel w = RollingWheel(tire, sandy_loam(), effects).roll(driven(load, slip));
+      EXPECT_LE(w.forces.thrust + faces(w), bound(w, tire, sandy_loam(), load)) << load << " N, slip " << slip;
+      EXPECT_GT(faces(w), 0.0);
+    }
+}
+
+// Where slip digs the wheel in, the stresses and the limited forces carry the load together.
+TEST(LugThrust, CarriesTheLoadWhereSlipDigsItIn) {
+  const Tire tire = lugged(0.67, 0.43, 0.05, 60);
+  for (const double a : {0.3, 1.0, 3.0}) {
+    const EffectList effects =
+        make_effects({{"lug_thrust", "passive_blade", {{"a", a}}}, {"slip_sinkage", "linear", {}}});
+    const RolledWheel w = RollingWheel(tire, sandy_loam(), effects).roll(driven(30e3, 0.4));
+    EXPECT_NE(w.stress_share, 1.0);
+    EXPECT_NEAR(w.forces.vertical, 30e3, 1e-6 * 30e3) << a;
+  }
 }
 
 }  // namespace
