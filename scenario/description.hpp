@@ -40,8 +40,11 @@ struct Word {
   E value;
 };
 
-constexpr std::array<Word<LugPattern>, 2> words_of(std::type_identity<LugPattern>) {
-  return {{{"straight", LugPattern::straight}, {"chevron", LugPattern::chevron}}};
+constexpr std::array<Word<LugPattern>, 4> words_of(std::type_identity<LugPattern>) {
+  return {{{"straight", LugPattern::straight},
+           {"chevron", LugPattern::chevron},
+           {"slanted", LugPattern::slanted},
+           {"staggered", LugPattern::staggered}}};
 }
 
 constexpr std::array<Word<SlipBy>, 2> words_of(std::type_identity<SlipBy>) {
@@ -91,15 +94,18 @@ std::optional<E> value_named(std::string_view text) {
 inline constexpr double right_angle = std::numbers::pi / 2;
 inline constexpr Range inclines{.lower = -right_angle, .upper = right_angle, .lower_open = true, .upper_open = true};
 inline constexpr Range yaws{.lower = -right_angle, .upper = right_angle};
+inline constexpr Range lug_angles{.lower = 0.0, .upper = 1.2};  ///< [rad]: 68.75 deg
 inline constexpr Range fractions{.lower = 0.0, .upper = 1.0};
 
 template <class Visitor>
 void describe(Visitor& v, std::type_identity<Lugs>) {
   v.number("height", &Lugs::height, Measure{"mm", zero_or_more}, Need::required,
            "from the tread base outward; 0 mm: smooth");
-  v.integer("count", &Lugs::count, 1, Need::optional, "number around the circumference");
+  v.integer("count", &Lugs::count, 1, Need::optional, "number around the circumference; staggered: on each side");
   v.number("thickness", &Lugs::thickness, Measure{"mm", above_zero}, Need::optional, "along the circumference");
   v.choice("pattern", &Lugs::pattern, Need::optional, "how the lugs run across the tread");
+  v.number("angle", &Lugs::angle, Measure{"deg", lug_angles}, Need::optional,
+           "between a bar and the axle; absent: 0.5 rad, and 0 of straight bars");
 }
 
 template <class Visitor>

@@ -20,7 +20,7 @@ std::optional<double> declared_ground_pressure(const Tire& tire) {
 std::string why_no_gaps(const Tire& tire) {
   if (!is_lugged(tire) || !tire.lugs.count || !tire.lugs.thickness) return "";
   constexpr double pi = std::numbers::pi;
-  const int count = *tire.lugs.count;
+  const int count = *tire.lugs.count * (tire.lugs.pattern == LugPattern::staggered ? 2 : 1);
   const double thickness = *tire.lugs.thickness, share = thickness / 2 / tire.radius;
   if (share < 1 && std::asin(share) < 0.999 * pi / count) return "";
   return fmt::format(

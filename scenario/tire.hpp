@@ -17,16 +17,19 @@ namespace soilbin {
 
 /// How the lugs (grousers) run across the tread.
 enum class LugPattern {
-  straight,  ///< bars parallel to the axle
-  chevron,   ///< two slanted bars that meet on the centre line
+  straight,   ///< bars parallel to the axle
+  chevron,    ///< two slanted bars that meet on the centre line
+  slanted,    ///< bars over the whole width that all lean the same way
+  staggered,  ///< slanted bars to both sides of the centre line, half a pitch apart: an agricultural drive tire's
 };
 
 /// Lugs of a tire or grousers of a rover wheel.
 struct Lugs {
-  double height = 0.0;              ///< h [m], from the tread base outward; 0 means smooth
-  std::optional<int> count;         ///< number around the circumference; unknown in some measured campaigns
+  double height = 0.0;       ///< h [m], from the tread base outward; 0 means smooth
+  std::optional<int> count;  ///< number around the circumference, staggered: on each side; unknown in some campaigns
   std::optional<double> thickness;  ///< [m] along the circumference
   LugPattern pattern = LugPattern::straight;
+  std::optional<double> angle = {};  ///< [rad] between a bar and the axle, where the pattern has one
 };
 
 /// The key of Tire::carcass_pressure in files, and its name among the values that a fit found.
@@ -57,7 +60,7 @@ Tire tire_at(Tire tire, const OperatingCondition& at);
 std::optional<double> declared_ground_pressure(const Tire& tire);
 
 /// "24 lugs of 600 mm leave no gap ..." where count and thickness ask for more than the circumference of the tread
-/// base; "" where they don't, or where either is not known.
+/// base, staggered lugs of both sides taken together; "" where they don't, or where either is not known.
 std::string why_no_gaps(const Tire& tire);
 
 /// "rover-wheel (r 90 mm, b 110 mm, smooth)".

@@ -50,7 +50,7 @@ const std::vector<Declared>& declarable() {
                     }};
   };
   static const std::vector<Declared> all = {
-      {"lugs", "lugs are ignored: add {}", "", "",
+      {"lugs", "lugs are ignored: add {} (estimate, explain, limits and run do)", "", "",
        [](const Case& question) { return is_lugged(question.scenario.tire); }},
       {"inflation_pressure", "the inflation pressure is ignored: add {} (estimate, explain, limits and run do)",
        "the inflation pressure is ignored: grains meet a rigid tire", "",
@@ -69,6 +69,7 @@ const std::vector<Declared>& declarable() {
       of_typed("lugs.count", "the number of lugs is ignored: add {}"),
       of_typed("lugs.thickness", "the lugs' thickness is ignored: only grains have it, {}"),
       of_typed("lugs.pattern", "the lugs' pattern is ignored: only grains have it, {}"),
+      of_typed("lugs.angle", "the lugs' angle is ignored: only grains have it, {}"),
       of_typed("speed", "the speed is ignored: add {}"),
       of_typed("bin", "the bin is ignored: add {}, which reads its depth"),
       of_yaw("slip_by"),

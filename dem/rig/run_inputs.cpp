@@ -8,6 +8,7 @@
 #include "dem/rig/step_criteria.hpp"
 #include "dem/surface/mesh_files.hpp"
 #include "scenario/checksum.hpp"
+#include "scenario/description.hpp"
 #include "scenario/file_bytes.hpp"
 
 namespace soilbin::dem {
@@ -32,7 +33,9 @@ void add_tire(Inputs& to, const Tire& tire) {
   if (!is_lugged(tire)) return;
   add(to, "tire.lug_count", tire.lugs.count.value_or(0)),
       add(to, "tire.lug_thickness", tire.lugs.thickness.value_or(0));
-  to.emplace_back("tire.lug_pattern", tire.lugs.pattern == LugPattern::chevron ? "chevron" : "straight");
+  for (const Word<LugPattern>& word : words_of(std::type_identity<LugPattern>{}))
+    if (word.value == tire.lugs.pattern) to.emplace_back("tire.lug_pattern", std::string(word.text));
+  if (tire.lugs.angle) add(to, "tire.lug_angle", *tire.lugs.angle);
 }
 
 void add_rig(Inputs& to, const Rig& rig) {
@@ -51,7 +54,7 @@ void add_rig(Inputs& to, const Rig& rig) {
 }
 
 /// To be raised when the same inputs give other bits, or a restart keeps something else.
-constexpr int version = 3;
+constexpr int version = 4;
 
 Inputs inputs_with_contact(BedRecipe recipe, const Tire& tire, const ContactPair& tire_contact, const Rig& rig) {
   recipe.soil.grain_tire = tire_contact;

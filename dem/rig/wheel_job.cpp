@@ -47,7 +47,8 @@ void parts(Notes& notes, WheelJob& job) {
   notes(bed.rest.kinetic, bed.rest.unbalanced, bed.rest.every, bed.rest.at_most);
   notes(job.bed.report.void_ratio, job.bed.report.bulk_density, job.bed.report.coordination);
   Tire& tire = job.tire;
-  notes(tire.radius, tire.width, tire.lugs.height, tire.lugs.count, tire.lugs.thickness, tire.lugs.pattern);
+  notes(tire.radius, tire.width, tire.lugs.height, tire.lugs.count, tire.lugs.thickness, tire.lugs.pattern,
+        tire.lugs.angle);
   std::string folder = job.bed.grains_in.string();
   notes(job.contact, job.rig, job.at, folder);
   job.bed.grains_in = folder;

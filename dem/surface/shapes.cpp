@@ -143,11 +143,12 @@ void add_disc(Patchwork& work, const Section& section, double y, double turn, do
   for (int i = 0; i < outer.size(); ++i) triangle(outer.vertex(i), outer.vertex(i + 1), centre);
 }
 
-/// The ends of the bars in the plane of one side.
-void add_bar_ends(Patchwork& work, const Section& section, double y, double turn) {
+/// The ends of the bars in a plane square to the axle, seen from its left (+y) or its right.
+void add_bar_ends(Patchwork& work, const Section& section, double y, double turn, bool from_left) {
   for (int i = 0; i < section.size(); ++i) {
     if (!section.in_bar[i]) continue;
-    work.add(1, section.layers, [&](int a, int layer) { return section.at(i + (y > 0 ? 1 - a : a), layer, y, turn); });
+    work.add(1, section.layers,
+             [&](int a, int layer) { return section.at(i + (from_left ? 1 - a : a), layer, y, turn); });
   }
 }
 
@@ -168,28 +169,49 @@ TriangleMesh swept(const std::string& name, const Section& section, const Sweep&
   add_tread(work, section, sweep);
   for (const std::size_t end : {std::size_t{0}, sweep.y.size() - 1}) {
     add_disc(work, section, sweep.y[end], sweep.turn[end], edge);
-    add_bar_ends(work, section, sweep.y[end], sweep.turn[end]);
+    add_bar_ends(work, section, sweep.y[end], sweep.turn[end], sweep.y[end] > 0);
   }
   return {std::move(work.vertices), std::move(work.triangles), {.closed = true, .weld = 1e-9, .name = name}};
 }
 
-/// `halves` puts a station on the centre line.
-Sweep sweep_over(const std::string& shape, double width, double edge, double turn_per_metre) {
-  const bool halves = turn_per_metre != 0;
-  const int n = halves ? 2 * parts_of(shape, width / 2, edge) : parts_of(shape, width, edge);
+/// Two halves of one base circle whose bars differ; the bars of each end in faces on the centre line.
+TriangleMesh swept_halves(const std::string& name, const Section& right, const Section& left, double width, double edge,
+                          double turn_per_metre) {
+  const int n = parts_of(name, width / 2, edge);
+  Patchwork work;
+  for (const bool is_left : {false, true}) {
+    const Section& section = is_left ? left : right;
+    Sweep sweep;  // from low y to high
+    for (int j = 0; j <= n; ++j) {
+      sweep.y.push_back(width / 2 * (is_left ? 1.0 * j / n : 1.0 * j / n - 1));
+      sweep.turn.push_back(-std::abs(sweep.y[j]) * turn_per_metre);
+    }
+    add_tread(work, section, sweep);
+    const std::size_t outer = is_left ? sweep.y.size() - 1 : 0, inner = sweep.y.size() - 1 - outer;
+    add_disc(work, section, sweep.y[outer], sweep.turn[outer], edge);
+    add_bar_ends(work, section, sweep.y[outer], sweep.turn[outer], is_left);
+    add_bar_ends(work, section, sweep.y[inner], sweep.turn[inner], !is_left);
+  }
+  return {std::move(work.vertices), std::move(work.triangles), {.closed = true, .weld = 1e-9, .name = name}};
+}
+
+/// Turned by -turn_per_metre times y, or of `halves` times |y|. Where it turns a station stands on the centre line.
+Sweep sweep_over(const std::string& shape, double width, double edge, double turn_per_metre, bool halves) {
+  const int n = turn_per_metre != 0 ? 2 * parts_of(shape, width / 2, edge) : parts_of(shape, width, edge);
   Sweep sweep;
   for (int j = 0; j <= n; ++j) {
     sweep.y.push_back(width * (2.0 * j / n - 1) / 2);
-    sweep.turn.push_back(-std::abs(sweep.y[j]) * turn_per_metre);
+    sweep.turn.push_back(-(halves ? std::abs(sweep.y[j]) : sweep.y[j]) * turn_per_metre);
   }
   return sweep;
 }
 
-Section lugged_section(const std::string& name, const Tire& tire, double edge) {
+/// Every place of a bar, or of `sides` = 2 every second one: the even ones, or with `odd` the others.
+Section lugged_section(const std::string& name, const Tire& tire, double edge, int sides = 1, bool odd = false) {
   require(name, tire.lugs.count && *tire.lugs.count > 0, "the number of lugs is not known", "give lugs.count");
   require(name, tire.lugs.thickness.has_value(), "the thickness of the lugs is not known", "give lugs.thickness");
   require_size(name, "lugs.thickness", *tire.lugs.thickness);
-  const int count = *tire.lugs.count;
+  const int count = sides * *tire.lugs.count;
   Section section;
   section.radius = tire.radius, section.height = tire.lugs.height;
   section.half_thickness = *tire.lugs.thickness / 2;
@@ -203,7 +225,7 @@ Section lugged_section(const std::string& name, const Tire& tire, double edge) {
   for (int k = 0; k < count; ++k) {
     const double centre = k * pitch;
     for (int i = 0; i < bar + gap; ++i) {
-      const bool in_bar = i < bar;
+      const bool in_bar = i < bar && k % sides == (odd ? 1 : 0);
       const double share_here = std::min(2.0 * i / bar - 1, 1.0);
       section.angles.push_back(i <= bar ? centre + share_here * half
                                         : centre + half + (pitch - 2 * half) * (i - bar) / gap);
@@ -259,7 +281,7 @@ TriangleMesh smooth_wheel(double radius, double width, int segments, double edge
   for (int i = 0; i < segments; ++i) section.angles.push_back(2 * pi * i / segments);
   section.in_bar.assign(segments, 0);
   section.bar_centre = section.bar_share = std::vector<double>(segments, 0.0);
-  return swept("smooth wheel", section, sweep_over("smooth wheel", width, edge, 0), edge);
+  return swept("smooth wheel", section, sweep_over("smooth wheel", width, edge, 0, false), edge);
 }
 
 TriangleMesh tire_surface(const Tire& tire, const TireMeshing& meshing) {
@@ -272,11 +294,18 @@ TriangleMesh tire_surface(const Tire& tire, const TireMeshing& meshing) {
     const int segments = std::max(24, parts_of(name, 2 * pi * tire.radius, meshing.edge));
     return smooth_wheel(tire.radius, tire.width, segments, meshing.edge);
   }
-  require(name, meshing.chevron_angle >= 0 && meshing.chevron_angle <= 1.2,
-          fmt::format("a chevron angle of {} rad", meshing.chevron_angle), "it is from 0 to 1.2 rad");
-  const double slant = tire.lugs.pattern == LugPattern::chevron ? std::tan(meshing.chevron_angle) / tire.radius : 0;
-  return swept(name, lugged_section(name, tire, meshing.edge), sweep_over(name, tire.width, meshing.edge, slant),
-               meshing.edge);
+  const LugPattern pattern = tire.lugs.pattern;
+  const double angle = tire.lugs.angle.value_or(pattern == LugPattern::straight ? 0.0 : meshing.chevron_angle);
+  require(name, angle >= 0 && angle <= 1.2, fmt::format("a chevron angle of {} rad", angle), "it is from 0 to 1.2 rad");
+  require(name, pattern != LugPattern::straight || angle == 0,
+          fmt::format("straight lugs at an angle of {} rad", angle),
+          "give lugs.pattern: chevron, slanted or staggered");
+  const double slant = std::tan(angle) / tire.radius;
+  if (pattern == LugPattern::staggered)
+    return swept_halves(name, lugged_section(name, tire, meshing.edge, 2, true),
+                        lugged_section(name, tire, meshing.edge, 2), tire.width, meshing.edge, slant);
+  return swept(name, lugged_section(name, tire, meshing.edge),
+               sweep_over(name, tire.width, meshing.edge, slant, pattern == LugPattern::chevron), meshing.edge);
 }
 
 }  // namespace soilbin::dem

@@ -29,15 +29,17 @@ TriangleMesh smooth_wheel(double radius, double width, int segments, double edge
 /// How a tire is cut into triangles.
 struct TireMeshing {
   double edge = 0.02;          ///< [m] target length of edges: cells round the tread, along the axle and on the sides
-  double chevron_angle = 0.5;  ///< [rad] between a chevron's bar and the axle, chosen; from 0 to 1.2
+  double chevron_angle = 0.5;  ///< [rad] of slanted bars to the axle where a tire tells none, chosen; from 0 to 1.2
   std::string drawn{};         ///< file with the wheel as drawn, .stl or .obj, in place of all this; empty: none
 };
 
 /// The tread base is a cylinder of tire.radius and tire.width, its vertices on the radius. On it stand lugs.count bars
 /// over the whole width, one of them centred at the top of the wheel: lugs.thickness between parallel sides, tops on
 /// radius + lugs.height. Straight bars lie parallel to the axle. A chevron's two halves meet on the centre line, which
-/// leads when the wheel rolls to +x; its section is the same at each y, turned back by |y| tan(chevron_angle)/radius,
-/// so the thickness is measured along the circumference. Closed. A smooth tire gives smooth_wheel with edges of at most
+/// leads when the wheel rolls to +x; its section is the same at each y, turned back by |y| tan(angle)/radius, so the
+/// thickness is measured along the circumference. Slanted bars are turned back by y tan(angle)/radius: their left end
+/// (+y) trails. Staggered ones are a chevron whose halves to the right (y < 0) stand half a pitch further; a bar ends
+/// in a face on the centre line. Closed. A smooth tire gives smooth_wheel with edges of at most
 /// meshing.edge. Throws InputError where lugs.count or lugs.thickness are not known or the bars leave no gap.
 /// Volume, as the edge goes to zero: width (pi R^2 + count (A(R + h) - A(R))), A(r) = s sqrt(r^2 - s^2) + r^2 asin(s/r)
 /// with s half the thickness.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <set>
 
 #include "dem/surface/mass_properties.hpp"
 #include "dem/surface/touching_points.hpp"
@@ -23,8 +24,12 @@ Tire paper_tire(LugPattern pattern) {
   Tire tire;
   tire.name = "paper", tire.radius = 0.496, tire.width = 0.305;
   tire.lugs = {.height = 0.011, .count = 40, .thickness = 0.025, .pattern = pattern};
+  if (pattern == LugPattern::staggered) tire.lugs.thickness = 0.02;
   return tire;
 }
+
+constexpr std::array all_patterns = {LugPattern::straight, LugPattern::chevron, LugPattern::slanted,
+                                     LugPattern::staggered};
 
 double longest_edge(const TriangleMesh& mesh) {
   double longest = 0;
@@ -91,9 +96,10 @@ TEST(Shapes, ASmoothWheelIsAPrism) {
 }
 
 TEST(Shapes, ThePapersTireComesOut) {
-  for (const LugPattern pattern : {LugPattern::straight, LugPattern::chevron}) {
+  for (const LugPattern pattern : all_patterns) {
     const Tire tire = paper_tire(pattern);
     const TriangleMesh mesh = tire_surface(tire, {.edge = 0.02});
+    EXPECT_TRUE(mesh.closed());
     double least = 1, most = 0;
     for (const Vec3& p : mesh.vertices()) {
       const double from_axle = std::hypot(p.x, p.z);
@@ -110,7 +116,7 @@ TEST(Shapes, ThePapersTireComesOut) {
 
 // The closed form of the header, reached with the square of the edge; the mesh lies inside its circles, so from below.
 TEST(Shapes, TheVolumeOfALuggedTireGoesToTheClosedForm) {
-  for (const LugPattern pattern : {LugPattern::straight, LugPattern::chevron}) {
+  for (const LugPattern pattern : all_patterns) {
     const Tire tire = paper_tire(pattern);
     const double r = tire.radius, h = tire.lugs.height, s = *tire.lugs.thickness / 2;
     const double bar = strip(r + h, s) - strip(r, s);
@@ -120,7 +126,9 @@ TEST(Shapes, TheVolumeOfALuggedTireGoesToTheClosedForm) {
     const double fine = expected - volume(tire_surface(tire, {.edge = 0.0134}));
     EXPECT_GT(fine, 0);
     EXPECT_NEAR(fine / coarse, 0.25, 0.01);  // both bars and gaps are cut twice as often
-    EXPECT_LT(fine, 1.5e-4 * expected);      // a chord of angle a lacks a^2/6: 1.2e-4 at 13.3 mm on 496 mm
+    // A chord of angle a lacks a^2/6: 1.2e-4 at 13.3 mm on 496 mm. Of slanted bars each cell of the tread is cut along
+    // the diagonal that lacks more, of a chevron's half of them.
+    EXPECT_LT(fine, (pattern == LugPattern::slanted ? 2.2e-4 : 1.5e-4) * expected);
   }
 }
 
@@ -168,6 +176,43 @@ TEST(Shapes, AChevronLeadsOnTheCentreLine) {
   EXPECT_NEAR(top_of_bar(0), 0, 1e-12);
   for (const double end : {-0.1525, 0.1525})
     EXPECT_NEAR(top_of_bar(end), -0.507 * std::sin(0.1525 * std::tan(0.5) / 0.496), 1e-4);
+}
+
+/// Angles about the axle of the bars' tops at this y, by their outermost vertices, turned so that one is 0.
+std::set<int> bars_at(const TriangleMesh& mesh, double y, double top) {
+  std::set<int> degrees;
+  for (const Vec3& p : mesh.vertices())
+    if (std::abs(p.y - y) < 1e-9 && std::hypot(p.x, p.z) > top - 1e-4)
+      degrees.insert(static_cast<int>(std::lround(std::atan2(p.x, p.z) * 180 / pi)));
+  return degrees;
+}
+
+// An agricultural drive tire: 12 bars of 45 deg on each side, half a pitch apart on the centre line, their outer ends
+// behind. Slanted bars lead on the right.
+TEST(Shapes, StaggeredBarsStandHalfAPitchApart) {
+  Tire tire = paper_tire(LugPattern::staggered);
+  tire.lugs = {.height = 0.04, .count = 12, .thickness = 0.04, .pattern = LugPattern::staggered, .angle = pi / 4};
+  const TriangleMesh mesh = tire_surface(tire, {.edge = 0.02});
+  EXPECT_TRUE(mesh.closed());
+  const double r = tire.radius, s = 0.02, half_bar = 180 / pi * std::asin(s / (r + 0.04));
+  const double expected = tire.width * (pi * r * r + 12 * (strip(r + 0.04, s) - strip(r, s)));
+  EXPECT_NEAR(volume(mesh), expected, 1e-3 * expected);
+  EXPECT_NEAR(mass_properties(mesh).centroid.y, 0, 1e-4);
+  const std::set<int> middle = bars_at(mesh, 0, r + 0.04);
+  const double end = 180 / pi * (tire.width / 2) / r;  // tan(45 deg) = 1
+  for (const double bar : {0.0, 15.0, 30.0, 45.0}) {   // both sides' on the centre line
+    EXPECT_TRUE(middle.contains(static_cast<int>(std::lround(bar + half_bar)))) << bar;
+    EXPECT_TRUE(middle.contains(static_cast<int>(std::lround(bar - half_bar)))) << bar;
+  }
+  const std::set<int> left = bars_at(mesh, tire.width / 2, r + 0.04), right = bars_at(mesh, -tire.width / 2, r + 0.04);
+  EXPECT_TRUE(left.contains(static_cast<int>(std::lround(-end + half_bar))));
+  EXPECT_TRUE(right.contains(static_cast<int>(std::lround(15 - end + half_bar))));
+  EXPECT_FALSE(left.contains(static_cast<int>(std::lround(15 - end)))) << "a gap";
+
+  tire.lugs.pattern = LugPattern::slanted;
+  const TriangleMesh slanted = tire_surface(tire, {.edge = 0.02});
+  EXPECT_TRUE(bars_at(slanted, tire.width / 2, r + 0.04).contains(static_cast<int>(std::lround(-end + half_bar))));
+  EXPECT_TRUE(bars_at(slanted, -tire.width / 2, r + 0.04).contains(static_cast<int>(std::lround(end - half_bar))));
 }
 
 // Grains round a tire: straight bars against a plain answer in the section's plane, within the faceting.
@@ -235,6 +280,10 @@ TEST(Shapes, RefuseWhatCanNotBe) {
   tire = paper_tire(LugPattern::chevron);
   EXPECT_THAT(shape_refusal([&] { tire_surface(tire, {.chevron_angle = 1.5}); }),
               testing::HasSubstr("chevron angle of 1.5"));
+  tire = paper_tire(LugPattern::straight), tire.lugs.angle = 0.3;
+  EXPECT_THAT(shape_refusal([&] { tire_surface(tire); }), testing::HasSubstr("straight lugs at an angle of 0.3 rad"));
+  tire = paper_tire(LugPattern::staggered), tire.lugs.thickness = 0.04;  // half the pitch is 39 mm
+  EXPECT_THAT(shape_refusal([&] { tire_surface(tire); }), testing::HasSubstr("leave no gap"));
 }
 
 }  // namespace

@@ -54,8 +54,10 @@ Tire any_tire() {
   tire.source = *text();
   tire.radius = *between(0.01, 2);
   tire.width = *between(0.01, 1);
-  tire.lugs = {*between(0, 0.1), std::nullopt, std::nullopt,
-               *rc::gen::element(LugPattern::straight, LugPattern::chevron)};
+  tire.lugs = {
+      *between(0, 0.1), std::nullopt, std::nullopt,
+      *rc::gen::element(LugPattern::straight, LugPattern::chevron, LugPattern::slanted, LugPattern::staggered)};
+  if (*rc::gen::arbitrary<bool>()) tire.lugs.angle = *between(0, 1.2);
   if (*rc::gen::arbitrary<bool>()) tire.lugs.count = *rc::gen::inRange(1, 100);
   if (*rc::gen::arbitrary<bool>()) tire.inflation_pressure = *between(0, 1e6);
   if (*rc::gen::arbitrary<bool>()) tire.carcass_pressure = any_estimate(0, 1e5);
