@@ -5,6 +5,7 @@
 #include "scenario/case.hpp"
 #include "scenario/mapping_reader.hpp"
 #include "scenario/nearest_word.hpp"
+#include "scenario/tire_size.hpp"
 
 namespace soilbin {
 namespace {
@@ -75,11 +76,24 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
+/// A tire whose size is given in place of a name: of the library, else by its size alone. Soils have none.
+template <class T>
+std::optional<T> find_by_size(const std::string& name, const Library& library) {
+  if constexpr (std::is_same_v<T, Tire>) {
+    const std::string stored = library_name_of_size(name);
+    if (stored.empty()) return std::nullopt;
+    if (const auto file = library.find(Shelf::tires, stored)) return read_file<Tire>(*file);
+    return tire_of_size(name);
+  }
+  return std::nullopt;
+}
+
 template <class T>
 T find_by_name(const std::string& name, const Library& library) {
-  if (looks_like_path(name)) return read_file<T>(name);
   if (const auto file = library.find(Kind<T>::shelf, name)) return read_file<T>(*file);
   if (is_file(name)) return read_file<T>(name);
+  if (auto sized = find_by_size<T>(name, library)) return *std::move(sized);
+  if (looks_like_path(name)) return read_file<T>(name);
   throw InputError(not_found<T>(name, library) + "\n  hint: " + names_hint<T>(library));
 }
 
@@ -93,12 +107,16 @@ T read_part(const YamlNode& node, const Library& library, const Reading& reading
   const std::string& name = node.scalar;
   if (name.find('\0') != std::string::npos) reading.refuse(node, "a name or path can't hold a zero byte");
   const fs::path beside = fs::path(reading.source->file).parent_path() / name;
-  if (looks_like_path(name)) {
-    if (!is_file(beside)) reading.refuse(node, fmt::format("no such {} file", Kind<T>::word));
-    return read_file<T>(beside);
-  }
   if (const auto file = library.find(Kind<T>::shelf, name)) return read_file<T>(*file);
   if (is_file(beside)) return read_file<T>(beside);
+  try {
+    if (auto sized = find_by_size<T>(name, library)) return *std::move(sized);
+  } catch (const InputError& error) {
+    const std::string told = error.what();
+    const std::size_t hint = told.find("\n  hint: ");
+    reading.refuse(node, told.substr(0, hint), told.substr(hint + 9));
+  }
+  if (looks_like_path(name)) reading.refuse(node, fmt::format("no such {} file", Kind<T>::word));
   reading.refuse(node, not_found<T>(name, library), names_hint<T>(library));
 }
 
