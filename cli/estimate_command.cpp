@@ -45,7 +45,7 @@ struct EstimateOptions {
   bool json = false;
   CsvOutput csv;
   std::string plot;
-  RigidFlag rigid;
+  TireFlags tire;
 };
 
 compare::Sheet sheet_of(const Case& question, const std::vector<compare::ModelAnswers>& study) {
@@ -66,7 +66,7 @@ int estimate(const Question& inputs, const EstimateOptions& options, const Sessi
         "--plot draws curves: it takes several values of slip or of another condition\n"
         "  hint: --slip 0%..60%, or --load 50N..200N; the steepest slope: soilbin limits --plot slope.svg");
   require_semi_empirical(question, session.place.library);
-  std::vector<std::string> doubts = options.rigid.apply(question, inputs.switches_effects_off());
+  std::vector<std::string> doubts = options.tire.apply(question, inputs.switches_effects_off());
   const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
   std::ranges::copy(compare::doubts(question, study), std::back_inserter(doubts));
   print_warnings(doubts);
@@ -89,7 +89,7 @@ void add_estimate(CLI::App& app, Session& session) {
       app.add_subcommand("estimate", "drawbar pull, torque, sinkage and side force, from flags or a case");
   const auto inputs = std::make_shared<Question>(*command);
   const auto options = std::make_shared<EstimateOptions>();
-  options->rigid.add_to(*command);
+  options->tire.add_to(*command);
   add_plot(*command, options->plot, "draw the curves over slip, or over another condition that varies");
   add_csv(*command, options->csv, "save the table");
   command->add_flag("--json", options->json, "the answers as JSON, in SI");

@@ -26,13 +26,13 @@ void print_text(const ModelChoice& choice, const Explanation& explanation, const
   fmt::print("{}", compare::in_words(explanation));
 }
 
-int explain(const Question& inputs, const RigidFlag& rigid, bool json, const Session& session) {
+int explain(const Question& inputs, const TireFlags& tire, bool json, const Session& session) {
   Case question = inputs.ask(session.place);
   constexpr std::size_t most = 20;
   if (question.study.conditions.size() > most)
     throw InputError(fmt::format("{} conditions are too many to explain; pick one with --load, --slip, ...",
                                  question.study.conditions.size()));
-  std::vector<std::string> doubts = rigid.apply(question, inputs.switches_effects_off());
+  std::vector<std::string> doubts = tire.apply(question, inputs.switches_effects_off());
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   if (!json) fmt::print("{} on {}\n\n", compare::tire_in_words(question), compare::in_words(question.scenario.soil));
   bool first = true;
@@ -66,13 +66,13 @@ void add_explain(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand(
       "explain", "why: the budget of forces, the equations with their values, and where the values come from");
   const auto inputs = std::make_shared<Question>(*command);
-  const auto rigid = std::make_shared<RigidFlag>();
-  rigid->add_to(*command);
+  const auto tire = std::make_shared<TireFlags>();
+  tire->add_to(*command);
   const auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "as JSON");
   command->footer("Example: soilbin explain --soil dry-sand --tire rover-wheel --load 65N --slip 20%");
   command->callback(
-      [=, &session] { session.action = [=, &session] { return explain(*inputs, *rigid, *json, session); }; });
+      [=, &session] { session.action = [=, &session] { return explain(*inputs, *tire, *json, session); }; });
 }
 
 }  // namespace soilbin::cli

@@ -22,7 +22,7 @@ struct LimitsOptions {
   bool json = false;
   CsvOutput csv;
   std::string plot, max_slip;
-  RigidFlag rigid;
+  TireFlags tire;
 };
 
 double max_slip_of(const LimitsOptions& options) {
@@ -33,7 +33,7 @@ double max_slip_of(const LimitsOptions& options) {
 int limits(const Question& inputs, const LimitsOptions& options, const Session& session) {
   Case question = inputs.ask(session.place);
   require_semi_empirical(question, session.place.library);
-  std::vector<std::string> doubts = options.rigid.apply(question, inputs.switches_effects_off());
+  std::vector<std::string> doubts = options.tire.apply(question, inputs.switches_effects_off());
   const std::vector<compare::WheelLimits> answers = compare::limits_of(question, max_slip_of(options));
   const std::vector<compare::ModelAnswers> at_limits = compare::answers_at_limits(question, answers);
   std::ranges::copy(compare::doubts(question, at_limits), std::back_inserter(doubts));
@@ -64,7 +64,7 @@ void add_limits(CLI::App& app, Session& session) {
   const auto inputs = std::make_shared<Question>(*command, std::vector<std::string>{"load"},
                                                  std::vector<std::string>{"slip", "longitudinal_incline"});
   const auto options = std::make_shared<LimitsOptions>();
-  options->rigid.add_to(*command);
+  options->tire.add_to(*command);
   add_plot(*command, options->plot, "draw the largest pull and the slips against the slope");
   add_csv(*command, options->csv, "save the table");
   command

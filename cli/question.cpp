@@ -231,7 +231,8 @@ Question::Question(CLI::App& app, std::vector<std::string> needed, const std::ve
     : needed_(std::move(needed)) {
   add_value(app, "case", case_name_, "CASE", "a case file, or a study of the library");
   add_value(app, "--soil", soil_, "NAME|FILE", "a soil of the library, or a YAML file")->group("Tire and soil");
-  add_value(app, "--tire", tire_, "NAME|FILE", "a tire of the library, or a YAML file")->group("Tire and soil");
+  add_value(app, "--tire", tire_, "NAME|FILE", "a tire of the library, its size (600/65R28), or a YAML file")
+      ->group("Tire and soil");
   wheel_.add_to(app, "Tire and soil", "", {"inflation_pressure"});  // a condition's
   lugs_.add_to(app, "Tire and soil", "lug-");
   bin_.add_to(app, "Tire and soil", "bin-");

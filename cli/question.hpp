@@ -12,7 +12,7 @@
 #include "cli/described_flags.hpp"
 #include "cli/workplace.hpp"
 #include "compare/sweep/answers.hpp"
-#include "compare/sweep/declared_flexibility.hpp"
+#include "compare/sweep/declared_tire.hpp"
 
 namespace soilbin::cli {
 
@@ -68,21 +68,23 @@ class ErrorFlag {
   bool exact_ = false;
 };
 
-/// --rigid; without it a tire with a declared inflation pressure is flexible where it flattens.
-class RigidFlag {
+/// --rigid and --no-lugs; without them a tire with a declared inflation pressure is flexible where it flattens, and one
+/// with lugs has their thrust.
+class TireFlags {
  public:
   void add_to(CLI::App& app) {
-    app.add_flag("--rigid", rigid_, "a rigid wheel, whatever inflation pressure the tire declares")->group("Model");
+    app.add_flag("--rigid", left_out_.pressure, "a rigid wheel, whatever inflation pressure the tire declares")
+        ->group("Model");
+    app.add_flag("--no-lugs", left_out_.lugs, "a smooth wheel, whatever lugs the tire declares")->group("Model");
   }
   /// What to tell of it, a sentence each. `base_model`: every effect was switched off by name. Throws InputError for a
-  /// question that names the effect tire_flexibility.
+  /// question that names the effect of what is left out.
   std::vector<std::string> apply(Case& question, bool base_model = false) const {
-    if (rigid_) return compare::make_rigid(question);
-    return base_model ? std::vector<std::string>() : compare::flexible_where_declared(question);
+    return base_model ? compare::without_effects(question, left_out_) : compare::as_declared(question, left_out_);
   }
 
  private:
-  bool rigid_ = false;
+  compare::LeftOut left_out_;
 };
 
 /// Flags for a soil's own values: "--friction-angle 30deg", "--k-phi '1500+-200 kN/m^(n+2)'", named as in a soil file.

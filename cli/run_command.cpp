@@ -31,8 +31,8 @@ struct RunOptions {
   bool json = false, converge = false, dry_run = false;
   ConditionFlags conditions;
   ErrorFlag errors;
-  RigidFlag rigid;
-  std::vector<std::string> notes;  ///< of the tire's flexibility
+  TireFlags tire;
+  std::vector<std::string> notes;  ///< of the tire's flexibility and lugs
   SoilBinFlags soil_bin;
 };
 
@@ -239,7 +239,7 @@ int run(RunOptions options, const CLI::App& command, const Session& session) {
   if (bin.engine == "lammps") compare::name_lammps(question);
   const Case whole = question;  // a record that is begun holds all conditions
   options.conditions.pick(question);
-  options.notes = options.rigid.apply(question);
+  options.notes = options.tire.apply(question);
   check_flags(options, command, question);
   if (options.converge) return converge(options, question, session);
   if (options.dry_run) return plan(options, question);
@@ -269,7 +269,7 @@ void add_run(CLI::App& app, Session& session) {
       ->group(grains_heading);
   options->conditions.add_to(*command);
   options->errors.add_to(*command);
-  options->rigid.add_to(*command);
+  options->tire.add_to(*command);
   options->soil_bin.add_to(*command);
   options->soil_bin.add_half_step_to(*command);
   options->soil_bin.add_engine_to(*command);

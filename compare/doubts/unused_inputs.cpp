@@ -50,7 +50,7 @@ const std::vector<Declared>& declarable() {
                     }};
   };
   static const std::vector<Declared> all = {
-      {"lugs", "lugs are ignored: add {} (estimate, explain, limits and run do)", "", "",
+      {"lugs", "lugs are ignored: add {} (estimate, explain, limits and run do where they ask one model)", "", "",
        [](const Case& question) { return is_lugged(question.scenario.tire); }},
       {"inflation_pressure", "the inflation pressure is ignored: add {} (estimate, explain, limits and run do)",
        "the inflation pressure is ignored: grains meet a rigid tire", "",

@@ -1,25 +1,22 @@
-#include "compare/sweep/declared_flexibility.hpp"
+#include "compare/sweep/declared_tire.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "bekker_wong/effect.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/tire_size.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-constexpr const char* flexibility = "tire_flexibility";
-constexpr const char* form = "flat_section";
-
-bool names_flexibility(const ModelChoice& choice) {
-  return std::ranges::find(choice.effects, flexibility, &EffectChoice::id) != choice.effects.end();
-}
-
-bool has_pressure(const Tire& tire, const OperatingCondition& at) {
-  return declared_ground_pressure(tire_at(tire, at)).value_or(0.0) > 0.0;
+bool names(const Case& question, const char* effect) {
+  return std::ranges::any_of(question.study.models, [&](const ModelChoice& choice) {
+    return std::ranges::find(choice.effects, effect, &EffectChoice::id) != choice.effects.end();
+  });
 }
 
 /// "270 kPa" or "100 .. 300 kPa": inflation and carcass together.
@@ -33,20 +30,41 @@ std::string pressures_in_words(const Tire& tire, const std::vector<OperatingCond
                        : fmt::format("{:.4g} .. {:.4g} kPa", least / 1000, most / 1000);
 }
 
-}  // namespace
+/// Something that a tire may declare, the effect and the form that make it felt, and what to tell of it.
+struct DeclaredByTire {
+  const char* effect;
+  const char* form;
+  bool (*is_there)(const Case&);
+  std::string (*words)(const Case&);
+};
 
-std::vector<std::string> flexible_where_declared(Case& question) {
-  const std::vector<OperatingCondition>& conditions = question.study.conditions;
-  std::vector<ModelChoice>& models = question.study.models;
-  const Tire& tire = question.scenario.tire;
-  const auto pumped = [&](const OperatingCondition& at) { return has_pressure(tire, at); };
-  if (!question.scenario.soil.semi_empirical || conditions.empty() || !std::ranges::all_of(conditions, pumped) ||
-      std::ranges::any_of(models, names_flexibility))
-    return {};
+constexpr std::array<DeclaredByTire, 2> declared_by_tires = {{
+    {"tire_flexibility", "flat_section",
+     [](const Case& question) {
+       return std::ranges::all_of(question.study.conditions, [&](const OperatingCondition& at) {
+         return declared_ground_pressure(tire_at(question.scenario.tire, at)).value_or(0.0) > 0.0;
+       });
+     },
+     [](const Case& question) {
+       return fmt::format(
+           "the tire is taken as flexible where the soil presses with more than its {} of inflation and "
+           "carcass (effect tire_flexibility, form flat_section); --rigid for the rigid wheel",
+           pressures_in_words(question.scenario.tire, question.study.conditions));
+     }},
+    {"lug_thrust", "passive_blade",
+     [](const Case& question) { return is_lugged(question.scenario.tire) && question.study.models.size() == 1; },
+     [](const Case&) {
+       return std::string(
+           "the tire is taken with its lugs (effect lug_thrust, form passive_blade); --no-lugs for the smooth wheel");
+     }},
+}};
+
+/// The effect with its defaults, in the analytic models that no fit made; whether there is any.
+bool add_effect(const DeclaredByTire& declared, std::vector<ModelChoice>& models) {
   bool any = false;
   for (ModelChoice& choice : models) {
     if (choice.model != ModelKind::bekker_wong || is_fitted(choice)) continue;
-    EffectChoice effect{flexibility, form, {}};
+    EffectChoice effect{declared.effect, declared.form, {}};
     for (const bekker_wong::EffectParameter& p : bekker_wong::find_form(effect).parameters)
       effect.parameters[p.name] = p.fallback;
     std::vector<ModelChoice> before = {{choice.model, choice.effects, ""}};
@@ -56,23 +74,57 @@ std::vector<std::string> flexible_where_declared(Case& question) {
     any = true;
   }
   label_models(models);
-  if (!any) return {};
-  return {
-      fmt::format("the tire is taken as flexible where the soil presses with more than its {} of inflation and "
-                  "carcass (effect {}, form {}); --rigid for the rigid wheel",
-                  pressures_in_words(tire, conditions), flexibility, form)};
+  return any;
 }
 
-std::vector<std::string> make_rigid(Case& question) {
-  if (std::ranges::any_of(question.study.models, names_flexibility))
+void make_rigid(Case& question, std::vector<std::string>& notes) {
+  if (names(question, "tire_flexibility"))
     throw InputError(
         "--rigid: a model of the question has the effect tire_flexibility\n  hint: leave one of the two out");
   if (std::ranges::any_of(question.study.conditions, [](const auto& at) { return at.inflation_pressure.has_value(); }))
     throw InputError("--rigid: a rigid wheel has no inflation pressure, and a condition tells one");
   std::optional<double>& pressure = question.scenario.tire.inflation_pressure;
-  if (!pressure) return {"--rigid is ignored: the tire declares no inflation pressure and is rigid"};
+  if (!pressure) notes.emplace_back("--rigid is ignored: the tire declares no inflation pressure and is rigid");
   pressure.reset();
-  return {};
+}
+
+void make_smooth(Case& question, std::vector<std::string>& notes) {
+  if (names(question, "lug_thrust"))
+    throw InputError("--no-lugs: a model of the question has the effect lug_thrust\n  hint: leave one of the two out");
+  Tire& tire = question.scenario.tire;
+  if (!is_lugged(tire)) {
+    notes.emplace_back("--no-lugs is ignored: the tire declares no lugs and is smooth");
+    return;
+  }
+  if (asks(question.study, ModelKind::dem))
+    throw InputError(
+        "--no-lugs: grains meet the tire with its lugs\n  hint: --model bekker_wong, or a tire without lugs");
+  tire.lugs = {};
+}
+
+/// A tire that nobody described, only named by its size; "" where radius or width are given beside it.
+void tell_of_size(const Tire& tire, std::vector<std::string>& notes) {
+  if (tire.source.starts_with(by_size_alone) && !tire.sources.contains("radius") && !tire.sources.contains("width"))
+    notes.push_back(fmt::format("tire {} is known {}", tire.name, tire.source));
+}
+
+}  // namespace
+
+std::vector<std::string> as_declared(Case& question, const LeftOut& left_out) {
+  std::vector<std::string> notes = without_effects(question, left_out);
+  if (!question.scenario.soil.semi_empirical || question.study.conditions.empty()) return notes;
+  for (const DeclaredByTire& declared : declared_by_tires)
+    if (declared.is_there(question) && !names(question, declared.effect) && add_effect(declared, question.study.models))
+      notes.push_back(declared.words(question));
+  return notes;
+}
+
+std::vector<std::string> without_effects(Case& question, const LeftOut& left_out) {
+  std::vector<std::string> notes;
+  tell_of_size(question.scenario.tire, notes);
+  if (left_out.pressure) make_rigid(question, notes);
+  if (left_out.lugs) make_smooth(question, notes);
+  return notes;
 }
 
 }  // namespace soilbin::compare

@@ -1,9 +1,9 @@
-// A tire that declares an inflation pressure is flexible where it flattens: what the commands that answer a question
-// ask of the analytic wheel where nobody named the effect tire_flexibility. Campaigns and fitted models keep to their
-// declared effects.
+// A tire as it declares itself, where a command answers a question and nobody named the effect: with an inflation
+// pressure it is flexible where it flattens, and with lugs it has their thrust. Campaigns, comparisons and fitted
+// models keep to their declared effects.
 //
-//   Case question = ...;                                                 // a tire of 270 kPa, no effects
-//   for (const std::string& note : flexible_where_declared(question))    // now with tire_flexibility
+//   Case question = ...;                                        // a tire of 270 kPa with lugs, no effects
+//   for (const std::string& note : as_declared(question, {}))   // now with tire_flexibility and lug_thrust
 //     fmt::print(stderr, "{}\n", note);
 #pragma once
 
@@ -14,14 +14,27 @@
 
 namespace soilbin::compare {
 
-/// Adds tire_flexibility, in its form flat_section, to the question's analytic models, where every condition has an
-/// inflation pressure, its own or the tire's. That form caps the pressure under the tread at inflation and carcass
-/// pressure: a wheel that presses with less rolls as the rigid one. Nothing where a model names the effect or comes
-/// from a fit. Gives a sentence that says so.
-std::vector<std::string> flexible_where_declared(Case& question);
+/// What of a tire is left out although it declares it.
+struct LeftOut {
+  bool pressure = false;  ///< a rigid wheel
+  bool lugs = false;      ///< a smooth one
+};
 
-/// The question with a rigid wheel: without the tire's inflation pressure. Gives a sentence where there was none.
-/// Throws InputError where a model names tire_flexibility or a condition an inflation pressure.
-std::vector<std::string> make_rigid(Case& question);
+/// Adds to the question's analytic models the effects of what its tire declares, one form each:
+/// - tire_flexibility, flat_section, where every condition has an inflation pressure, its own or the tire's: it caps
+/// the
+///   pressure under the tread at inflation and carcass pressure, so that a wheel that presses with less rolls as the
+///   rigid one
+/// - lug_thrust, passive_blade, for lugs, where one model is asked: of the forms it alone has the size of the pull that
+///   lugs add in grains which resolve them (docs/lab/grain-size.md). A study that sets models side by side keeps to
+///   them
+/// Nothing of an effect that a model names, nor in a model that comes from a fit. What is left out is taken off the
+/// tire. Gives a sentence for each thing added or left out for nothing, and one for a tire that is known by its size
+/// alone. Throws InputError where a model names the effect of what is to be left out, where a condition tells the
+/// pressure, and where grains are asked, which meet the tire with its lugs.
+std::vector<std::string> as_declared(Case& question, const LeftOut& left_out);
+
+/// The same without adding any effect, where every effect was switched off by name.
+std::vector<std::string> without_effects(Case& question, const LeftOut& left_out);
 
 }  // namespace soilbin::compare

@@ -586,6 +586,78 @@ TEST(Estimate, ATireWithAPressureIsFlexibleWhereItFlattens) {
   EXPECT_EQ(soilbin("estimate " + truck + "--rigid --effect tire_flexibility").status, 2);
 }
 
+// A tire with lugs has their thrust, and the answer says by which form; --no-lugs: the smooth wheel, of which no more
+// is told. A wheel whose effects are named keeps to them.
+TEST(Estimate, ATireWithLugsHasThem) {
+  const std::string wheel = "--soil dry-sand --radius 250mm --width 100mm --load 400N ";
+  const std::string lugged = wheel + "--lug-height 8mm --lug-count 24 ", slip = "--slip 20% ";
+  for (const char* command : {"estimate ", "limits ", "explain "}) {
+    const Outcome r = soilbin(command + lugged + (std::string(command) == "limits " ? "" : slip));
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_THAT(r.err, HasSubstr("taken with its lugs (effect lug_thrust, form passive_blade); --no-lugs")) << command;
+  }
+  const auto row = [](const std::string& flags) { return soilbin("estimate " + flags + "--json").json()["rows"][0]; };
+  const nlohmann::json with = row(lugged + slip), named = row(lugged + slip + "--effect lug_thrust:passive_blade "),
+                       without = row(lugged + slip + "--no-lugs "), smooth = row(wheel + slip);
+  EXPECT_EQ(with["drawbar_pull"], named["drawbar_pull"]);
+  EXPECT_EQ(without["drawbar_pull"], smooth["drawbar_pull"]);
+  EXPECT_GT(with["drawbar_pull"], without["drawbar_pull"]);
+  EXPECT_EQ(row(lugged + slip + "--effect none ")["drawbar_pull"], smooth["drawbar_pull"]);
+  const Outcome bare = soilbin("estimate " + lugged + slip + "--no-lugs");
+  EXPECT_EQ(bare.err, "");
+  EXPECT_THAT(bare.out, HasSubstr("b 100 mm, smooth)"));
+  EXPECT_THAT(soilbin("estimate " + wheel + slip + "--no-lugs").err, HasSubstr("--no-lugs is ignored"));
+  EXPECT_EQ(soilbin("estimate " + lugged + slip + "--no-lugs --effect lug_thrust").status, 2);
+  const Outcome grains = soilbin("run paper-straight --recorded --no-lugs --load 4kN --slip 20%");
+  EXPECT_EQ(grains.status, 2);
+  EXPECT_THAT(grains.err, HasSubstr("grains meet the tire with its lugs\n  hint: --model bekker_wong"));
+}
+
+// The bound that explain shows and the thrust beside it do not contradict each other, however many lugs there are.
+TEST(Estimate, ExplainsALargestThrustThatHolds) {
+  for (const char* wheel : {"--radius 250mm --width 100mm --load 400N --lug-height 30mm --lug-count 150 ",
+                            "--tire 16.00R20 --load 36kN ", "--tire 18.4-38 --load 20kN --inflation-pressure 60kPa "})
+    for (const char* form :
+         {"passive_blade,a=1", "free_blade,a=10", "level_blade,a=10", "side_factors,a=10", "shear_radius,lambda_s=4"}) {
+      const Outcome r = soilbin(std::string("explain --soil upland-sandy-loam --slip 60% --json ") + wheel +
+                                "--effect lug_thrust:" + form);
+      ASSERT_EQ(r.status, 0) << r.err;
+      const nlohmann::json row = r.json()["rows"][0];
+      double thrust = 0.0, most = 0.0;
+      for (const auto& part : row["budget"])
+        if (part["name"] == "shear_thrust" || part["name"] == "lug_thrust") thrust += part["force"].get<double>();
+      for (const auto& check : row["cross_checks"])
+        if (check["name"] == "largest thrust of this soil") {
+          most = check["value"];
+          EXPECT_THAT(check["remark"].get<std::string>(), testing::Not(HasSubstr("more, as an effect")));
+        }
+      EXPECT_GT(thrust, 0.0);
+      EXPECT_LE(thrust, most) << wheel << form;
+    }
+}
+
+TEST(Estimate, TakesATireByItsSize) {
+  const std::string asked = " --soil upland-sandy-loam --load 15kN --slip 15%";
+  const Outcome sized = soilbin("estimate --tire 540/65R30" + asked),
+                stored = soilbin("estimate --tire 16.00r20" + asked);
+  ASSERT_EQ(sized.status, 0) << sized.err;
+  EXPECT_THAT(sized.out, HasSubstr("540/65R30 (r 732 mm, b 540 mm, smooth)"));
+  EXPECT_THAT(sized.err, HasSubstr("tire 540/65R30 is known by its size alone: 540 mm wide"));
+  EXPECT_THAT(stored.out, HasSubstr("16.00R20 (r 650 mm, b 406.4 mm, 36 lugs of 20 mm, 250 kPa)"));
+  EXPECT_THAT(stored.err, testing::Not(HasSubstr("size alone")));
+  const Outcome wrong = soilbin("estimate --tire 540/650R30" + asked);
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("tire size '540/650R30': sides of 650 %"));
+}
+
+// A large wheel on soil with a K of 20 mm: even without slip it shears the soil by far more.
+TEST(Estimate, DoubtsAPullWithoutSlip) {
+  const std::string heavy = "estimate --soil upland-sandy-loam --radius 670mm --width 430mm --load 30kN --slip ";
+  EXPECT_THAT(soilbin(heavy + "0%").err, HasSubstr("of its load at load 30 kN, slip 0 %: even there the model shears"));
+  EXPECT_THAT(soilbin(heavy + "10%").err, testing::Not(HasSubstr("even there")));
+  EXPECT_EQ(soilbin("estimate --soil dry-sand --tire rover-wheel --load 65N --slip 0%").err, "");
+}
+
 // What is not known of the carcass is in the standard error of a flexible tire.
 TEST(Estimate, CarcassPressureHasADeviation) {
   const auto error = [](const std::string& carcass) {
