@@ -21,9 +21,10 @@ struct TireLeftOut {
 };
 
 /// Adds to the question's analytic models the effects of what its tire declares, one form each:
-/// - tire_flexibility, flat_section, where every condition has an inflation pressure, its own or the tire's: it
-///   caps the pressure under the tread at inflation and carcass pressure, so that a wheel that presses with less rolls
-///   as the rigid one
+/// - tire_flexibility, flat_section, where every condition has an inflation pressure, its own or the tire's: it caps
+/// the
+///   pressure under the tread at inflation and carcass pressure, so that a wheel that presses with less rolls as the
+///   rigid one
 /// - lug_thrust, passive_blade, for lugs, where one model is asked: of the forms it alone has the size of the pull that
 ///   lugs add in grains which resolve them (docs/lab/grain-size.md). A study that sets models side by side keeps to
 ///   them
