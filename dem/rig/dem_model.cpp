@@ -140,7 +140,15 @@ void DemModel::tell_of_ends(const Tire& tire, double sinkage) const {
 void DemModel::tell_of_patch(const WheelRun& run, const BedRecipe& bed) const {
   constexpr double much = 0.1;  // mean diameters (chosen; docs/lab/soil-bin.md, 'A moving patch')
   const double share = run.patch.disturbed / mean_diameter(bed.soil);
-  if (run.patch.grains == 0 || !settings_.how.tell || share < much) return;
+  if (run.patch.grains == 0 || !settings_.how.tell) return;
+  const double error = run.result.drawbar_pull.std_error / run.result.at.load;
+  if (settings_.rig.travel == 0 && !(error <= settings_.rig.until_error))
+    settings_.how.tell(
+        fmt::format("note: after {:.3g} m, the longest way on a patch, the mean pull is known to {:.2g} of the load, "
+                    "not to {:.2g}\n"
+                    "  hint: --packings, or a larger --until-error",
+                    run.samples.back().travel, error, settings_.rig.until_error));
+  if (share < much) return;
   settings_.how.tell(fmt::format(
       "note: where the patch ends ahead, the wheel had moved the soil by {:.2g} of a grain's diameter: that end is too "
       "near\n  hint: more than --ahead {:.4g}m",
