@@ -166,9 +166,9 @@ void MovingPatch::note_disturbance(const Simulation& simulation, double from, do
   for (std::size_t row = 0; row < grains.count(); ++row) {
     const Vec3 settled = home(grains.id[row]);
     if (settled.x < from || settled.x >= to) continue;
-    sum += squared(grains.motion[row].position - settled), count += 1;
+    sum += length(grains.motion[row].position - settled), count += 1;
   }
-  if (count > 0) disturbed_ = std::max(disturbed_, std::sqrt(sum / count));
+  if (count > 0) disturbed_ = std::max(disturbed_, sum / count);
 }
 
 void MovingPatch::advance(Simulation& simulation) {

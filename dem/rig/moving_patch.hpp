@@ -83,8 +83,8 @@ class MovingPatch {
   std::int64_t advances() const { return advances_; }
   /// Grains that had been thrown onto what is held ahead, and left where others came in.
   std::int64_t thrown() const { return thrown_; }
-  /// How far the grains just behind the slab that was let go had moved from where they had settled: root mean square
-  /// over each advance, the largest of them so far [m].
+  /// How far the grains just behind the slab that was let go had moved from where they had settled: their mean, of the
+  /// advance where it was largest so far [m].
   double disturbed() const { return disturbed_; }
   /// Grains in the patch at once, about.
   double grains() const;

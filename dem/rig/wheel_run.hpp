@@ -107,7 +107,7 @@ struct WheelSample {
 /// Of a run on a moving patch.
 struct PatchReport {
   double grains = 0;        ///< in it at once; 0: the bed stood still
-  double disturbed = 0;     ///< root mean square of how far the soil at the front had moved when it was let go [m]
+  double disturbed = 0;     ///< how far the soil at the front had moved when it was let go, largest mean of a slab [m]
   std::int64_t thrown = 0;  ///< grains that were thrown over its front end
 };
 
