@@ -191,7 +191,7 @@ TEST(SlowMovingPatch, ARunThatIsStoppedAgainAndAgainTellsTheSame) {
     WorkOptions how = with_threads(1 + stops % 2);
     how.stop = source.get_token();
     how.progress = [&, said = 0](const Progress&) mutable {
-      if (++said == 12) source.request_stop();
+      if (++said == 8) source.request_stop();
     };
     try {
       told = patch_bits(patch_run(rig, uphill(), how, kept));
