@@ -98,6 +98,13 @@ constexpr SettingFlag measure_flags[] = {
      {.lower = 0.05, .upper = 2}}};
 constexpr SettingFlag starting_flag{"--starting", "TIME", "time in which speed and rotation come on; {} s",
                                     rig<&R::starting>};
+constexpr SettingFlag until_error_flag{
+    "--until-error",
+    "SHARE",
+    "with --patch and without --travel: the wheel goes on until the run is steady and its mean pull has a standard "
+    "error of this share of the load, 30 outer radii at most; {}",
+    rig<&R::until_error>,
+    {.lower = 1e-4, .upper = 0.5}};
 
 constexpr const char* wheel_mesh_flag = "--wheel-mesh";
 
@@ -151,7 +158,12 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
     set_where_given(one.flag, flags.text(one.flag), one.measure(), one.of(settings));
   };
   for (const SettingFlag& one : measure_flags) set(one);
-  set(starting_flag);
+  set(starting_flag), set(until_error_flag);
+  settings.rig.patch = flags.patch;
+  if (!flags.text(until_error_flag.flag).empty() && !(flags.patch && flags.text("--travel").empty()))
+    throw InputError(
+        "--until-error has no effect: it ends a run on a moving patch whose way is not told\n  hint: "
+        "--patch, without --travel");
   settings.settling_friction = read_settling_friction(flags.text("--settling-friction"), settings.settling_friction);
   if (flags.packing < 0) throw InputError("--packing: a seed is 0 or more");
   if (flags.packings < 1) throw InputError("--packings: 1 or more");
@@ -209,6 +221,15 @@ void SoilBinFlags::add_seed_to(CLI::App& command) {
 
 void SoilBinFlags::add_starting_to(CLI::App& command) { add(command, starting_flag, texts); }
 
+void SoilBinFlags::add_patch_to(CLI::App& command) {
+  command
+      .add_flag("--patch", patch,
+                "a moving patch: only the soil from --behind to --ahead of the axle is simulated and goes along with "
+                "the wheel, on a bed that repeats itself every --bed-length without an end")
+      ->group(grains_heading);
+  add(command, until_error_flag, texts);
+}
+
 void SoilBinFlags::add_packings_to(CLI::App& command) {
   add_value(command, "--packings", packings, "N", "number of beds, from --packing on; answers are means over them; 1")
       ->check(whole_number(1, compare::most_packings))
@@ -260,6 +281,7 @@ void SoilBinFlags::add_known_to(CLI::App& command) {
 void SoilBinFlags::add_to(CLI::App& command) {
   add_rig_to(command);
   add_starting_to(command);
+  add_patch_to(command);
   add_packings_to(command);
   add_kept_file(command, "--record", record, "FILE.json",
                 "keep each run in this file as it is finished, and go on with what is there")

@@ -48,6 +48,7 @@ struct SoilBinFlags {
   std::string settled_by;  ///< who settles the beds: soilbin, without a word too, or lammps; likewise
   std::vector<std::string> known;  ///< records whose runs are not made again; flag of those who add it
   std::string shard;               ///< "K/N": the part to be made; flag of those who add it
+  bool patch = false;              ///< flag of those who add it
   std::string half_step;           ///< yes, no or, without a word, by the number of runs; flag of those who add it
 
   std::string text(const std::string& flag) const;  ///< "" where it wasn't given
@@ -58,6 +59,8 @@ struct SoilBinFlags {
   /// What a bed hangs on alone, and threads: for who only settles beds.
   void add_bed_to(CLI::App& command);
   void add_starting_to(CLI::App& command);
+  /// --patch and --until-error.
+  void add_patch_to(CLI::App& command);
   /// Bed, rig and threads alone: for who keeps no records.
   void add_rig_to(CLI::App& command);
   /// --packings alone.

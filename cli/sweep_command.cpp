@@ -149,6 +149,7 @@ void add_sweep(CLI::App& app, Session& session) {
   asked->conditions.add_to(*command);
   asked->soil_bin.add_rig_to(*command);
   asked->soil_bin.add_starting_to(*command);
+  asked->soil_bin.add_patch_to(*command);
   asked->soil_bin.add_packings_to(*command);
   asked->soil_bin.add_known_to(*command);
   asked->soil_bin.add_half_step_to(*command);

@@ -67,20 +67,33 @@ double summed(Autocorrelations& rho, const Weighted& weighted) {
 
 double as_found(double, double rho) { return rho; }
 
-/// The standard error of a mean over few autocorrelation times. About their own mean such samples look more alike and
-/// less correlated than they are: sum (x - mean)^2 = (n - tau) variance, and each autocorrelation of so few comes out
-/// too small by about tau/n. Both are put right, tau/n with the tau found, a third of the samples at most.
-double error_of_few(std::span<const double> series, Autocorrelations& correlations) {
+/// Variance of a series and its autocorrelation time, from what is left of few autocorrelation times once `fitted`
+/// numbers are fitted to them. Such samples look more alike and less correlated than they are: sum (x - fit)^2 = (n -
+/// fitted tau) variance, and each autocorrelation comes out too small by about fitted tau/n. Both are put right, with
+/// the tau found, n/(3 fitted) samples at most.
+struct Fluctuation {
+  double variance, tau;
+};
+Fluctuation fluctuation_of_few(std::span<const double> series, Autocorrelations& correlations, double fitted) {
   const double n = static_cast<double>(series.size());
   constexpr int rounds = 8;
   double tau = 1;
   for (int round = 0; round < rounds; ++round) {
-    const double bias = std::min(tau / n, 0.5);
+    const double bias = std::min(fitted * tau / n, 0.5);
     tau = summed(correlations, [&](double lag, double rho) { return (1 - bias) * rho + (1 - lag / n) * bias; });
   }
-  tau = std::min(tau, n / 3);
-  return std::sqrt(scatter(series) / n * tau / (n - tau));
+  tau = std::min(tau, n / (3 * fitted));
+  return {scatter(series) / (n - fitted * tau), tau};
 }
+
+/// The standard error of a mean over few autocorrelation times.
+double error_of_few(std::span<const double> series, Autocorrelations& correlations) {
+  const double n = static_cast<double>(series.size());
+  const auto [variance, tau] = fluctuation_of_few(series, correlations, 1);
+  return std::sqrt(variance * tau / n);
+}
+
+constexpr std::size_t fewest_for_trend = 16;  // samples
 
 struct BlockAverage {
   Estimate mean;
@@ -145,11 +158,63 @@ double drift_over_error(std::span<const double> series) {
   return error > 0 ? difference / error : (difference > 0 ? 1e300 : 0);
 }
 
+namespace {
+
+/// Of what is left of a series once each fifth has lost its mean: a trend over the whole, or a last fifth that differs,
+/// is not in it.
+Fluctuation fluctuation_within_fifths(std::span<const double> series) {
+  constexpr std::size_t fifths = 5;
+  std::vector<double> rest;
+  for (std::size_t k = 0; k < fifths; ++k) {
+    const std::size_t from = series.size() * k / fifths, to = series.size() * (k + 1) / fifths;
+    const double middle = mean_of_series(series.subspan(from, to - from));
+    for (std::size_t at = from; at < to; ++at) rest.push_back(series[at] - middle);
+  }
+  if (!(scatter(rest) > 0)) return {0, 1};
+  Autocorrelations rho(rest);
+  return fluctuation_of_few(rest, rho, fifths);
+}
+
+/// Of a change of the mean within a series; `independent`: of so many samples that follow no other it has the variance
+/// of a mean. 0 for a change that rounding makes.
+double over_error(double change, std::span<const double> series, double independent) {
+  constexpr double rounding = 1e-12;
+  const auto [lowest, highest] = std::ranges::minmax(series);
+  if (std::abs(change) <= rounding * std::max(std::abs(lowest), std::abs(highest))) return 0;
+  const auto [variance, tau] = fluctuation_within_fifths(series);
+  const double error = std::sqrt(variance * tau / independent);
+  return error > 0 ? std::abs(change) / error : 1e300;
+}
+
+}  // namespace
+
+double trend_over_error(std::span<const double> series) {
+  if (series.size() < fewest_for_trend) return 0;
+  const double middle = mean_of_series(series), centre = static_cast<double>(series.size() - 1) / 2;
+  double products = 0, squares = 0;
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    const double at = static_cast<double>(k) - centre;
+    products += at * (series[k] - middle), squares += at * at;
+  }
+  const double length = static_cast<double>(series.size() - 1);
+  return over_error(length * products / squares, series, squares / (length * length));
+}
+
+double last_fifth_over_error(std::span<const double> series) {
+  if (series.size() < fewest_for_trend) return 0;
+  const std::size_t last = series.size() / 5, before = series.size() - last;
+  const double difference = mean_of_series(series.last(last)) - mean_of_series(series.first(before));
+  const double independent = 1 / (1 / static_cast<double>(before) + 1 / static_cast<double>(last));
+  return over_error(difference, series, independent);
+}
+
 SteadyPart steady_part(const std::vector<std::vector<double>>& series) {
   SteadyPart part;
   for (const std::vector<double>& one : series) part.from = std::max(part.from, end_of_start_up(one));
-  for (const std::vector<double>& one : series)
-    part.drift = std::max(part.drift, drift_over_error(std::span(one).subspan(part.from)));
+  for (const std::vector<double>& one : series) {
+    const std::span<const double> kept = std::span(one).subspan(part.from);
+    part.drift = std::max({part.drift, drift_over_error(kept), trend_over_error(kept), last_fifth_over_error(kept)});
+  }
   return part;
 }
 

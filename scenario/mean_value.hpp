@@ -37,10 +37,17 @@ std::size_t end_of_start_up(std::span<const double> series);
 /// around 1 where the series is steady. 0 for less than sixteen samples.
 double drift_over_error(std::span<const double> series);
 
+/// Slope of a straight line through the whole series over its standard error; and how far the mean of the last fifth
+/// lies from that of the rest, over its own. Errors come from what fluctuates within fifths alone, so that a trend does
+/// not hide in its own error. Around 1 where the series is steady, as drift_over_error; 0 for less than sixteen
+/// samples.
+double trend_over_error(std::span<const double> series);
+double last_fifth_over_error(std::span<const double> series);
+
 /// What is left of several series of one length once their start-up is cut off.
 struct SteadyPart {
   std::size_t from = 0;  ///< the latest end_of_start_up of them
-  double drift = 0;      ///< the largest drift_over_error of what is left
+  double drift = 0;      ///< of what is left the largest drift_, trend_ and last_fifth_over_error
 };
 SteadyPart steady_part(const std::vector<std::vector<double>>& series);
 

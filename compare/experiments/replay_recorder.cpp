@@ -1,6 +1,7 @@
 #include "compare/experiments/replay_recorder.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "dem/archive/note_text.hpp"
 #include "scenario/atomic_file.hpp"
@@ -53,6 +54,35 @@ void ReplayRecorder::find_places() {
   for (std::size_t row = 0; row < ids_.size(); ++row) place_.emplace(ids_[row], row);
 }
 
+/// Grains that have come in take the places of those of the same radius that have left, else new ones at the end, where
+/// earlier frames show them as they came. Those that have left are shown where they were last, until then.
+void ReplayRecorder::make_places(const dem::Grains& grains) {
+  std::vector<std::uint32_t> fresh;
+  for (std::uint32_t row = 0; row < grains.count(); ++row)
+    if (!place_.contains(grains.id[row])) fresh.push_back(row);
+  if (fresh.empty()) return;
+  std::ranges::sort(fresh, {}, [&](std::uint32_t row) { return grains.id[row]; });
+  std::vector<bool> taken(ids_.size());
+  for (const dem::GrainId id : grains.id)
+    if (const auto place = place_.find(id); place != place_.end()) taken[place->second] = true;
+  std::map<double, std::vector<std::size_t>> free;  // by radius
+  for (std::size_t place = ids_.size(); place-- > 0;)
+    if (!taken[place]) free[replay_.radii[place]].push_back(place);
+  for (const std::uint32_t row : fresh) {
+    const double radius = grains.motion[row].radius;
+    std::vector<std::size_t>& places = free[radius];
+    if (places.empty()) {
+      ids_.push_back(grains.id[row]), replay_.radii.push_back(radius);
+      for (ReplayFrame& frame : replay_.frames)
+        frame.grains.push_back(point_of(grains.motion[row].position)), frame.pressing.push_back(0);
+      continue;
+    }
+    ids_[places.back()] = grains.id[row];
+    places.pop_back();
+  }
+  find_places();
+}
+
 void ReplayRecorder::begin(const dem::Simulation& simulation, int wheel, double surface) {
   const dem::Grains& grains = simulation.state().grains;
   replay_.surface = surface;
@@ -77,11 +107,13 @@ void ReplayRecorder::begin(const dem::Simulation& simulation, int wheel, double 
 
 void ReplayRecorder::look(const dem::Simulation& simulation, int wheel, double surface) {
   if (replay_.frames.empty()) begin(simulation, wheel, surface);
+  make_places(simulation.state().grains);
   const dem::Body& body = simulation.body(wheel);
   ReplayFrame frame;
   frame.time = simulation.time();
   frame.wheel = point_of(body.position);
   frame.rotation = {body.rotation.w, body.rotation.x, body.rotation.y, body.rotation.z};
+  if (!replay_.frames.empty()) frame.grains = replay_.frames.back().grains;
   frame.grains.resize(replay_.radii.size());
   const dem::Grains& grains = simulation.state().grains;
   for (std::size_t row = 0; row < grains.count(); ++row)

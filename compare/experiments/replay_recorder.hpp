@@ -30,6 +30,7 @@ class ReplayRecorder {
   template <class Notes>
   void state(Notes& notes);
   void find_places();
+  void make_places(const dem::Grains& grains);
   void begin(const dem::Simulation& simulation, int wheel, double surface);
 
   Replay replay_;

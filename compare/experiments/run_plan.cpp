@@ -51,7 +51,7 @@ class RunCosts {
 
   double steps(const AskedRun& run) const;
   /// On the clock on the wall, the bed already settled [s].
-  double seconds(const AskedRun& run) const { return grains_ * steps(run) / speed_; }
+  double seconds(const AskedRun& run) const { return in_run_ * steps(run) / speed_; }
   /// To settle a bed, about: as long as grains take to fall by its depth, thirty times [s].
   double bed_seconds() const;
   int threads() const;  ///< of LAMMPS: processes
@@ -63,7 +63,8 @@ class RunCosts {
   const Scenario& scenario_;
   const dem::DemSettings& settings_;
   dem::BedRecipe recipe_;
-  double grains_ = 0, speed_ = 0;  ///< grains that the bed will hold, about; grain-steps a second
+  double grains_ = 0, in_run_ = 0;  ///< grains that the bed and a run will hold, about
+  double speed_ = 0;                ///< grain-steps a second
   std::size_t from_runs_ = 0;
 };
 
@@ -71,13 +72,14 @@ RunCosts::RunCosts(const Scenario& scenario, const dem::DemSettings& settings, c
     : scenario_(scenario),
       settings_(settings),
       recipe_(dem::DemModel(settings).recipe(scenario)),
-      grains_(dem::expected_grains(recipe_)) {
+      grains_(dem::expected_grains(recipe_)),
+      in_run_(dem::DemModel(settings).grains_of_run(scenario)) {
   double work = 0, seconds = 0;
   for (const Record& record : records)
     for (RunList list : {&Record::runs, &Record::half_step})
       for (const RecordedRun& run : record.*list) {
         if (!run.answer.result) continue;  // it may have ended early
-        work += grains_ * steps({run.answer.at, run.packing, list == &Record::half_step}), seconds += run.seconds;
+        work += in_run_ * steps({run.answer.at, run.packing, list == &Record::half_step}), seconds += run.seconds;
         ++from_runs_;
       }
   speed_ = seconds > 0 ? work / seconds : trial(settings) * threads() / (settings.lammps ? engine_over_lammps : 1);
@@ -103,8 +105,8 @@ int RunCosts::threads() const {
 /// Memory is that of a process while pairs are searched, which needs the most.
 void RunCosts::tell(RunPlan& plan) const {
   plan.threads = threads(), plan.in_lammps = settings_.lammps.has_value(), plan.from_runs = from_runs_,
-  plan.speed = speed_, plan.grains = grains_;
-  const double spheres = grains_ * spheres_of(recipe_.soil.shape);
+  plan.speed = speed_, plan.grains = in_run_;
+  const double spheres = std::max(grains_, in_run_) * spheres_of(recipe_.soil.shape);
   plan.bed_seconds = bed_seconds(), plan.memory = 60e6 + 900 * spheres / (plan.in_lammps ? threads() : 1);
   plan.bed_bytes = 250 * spheres, plan.record_bytes = 40e3;
 }

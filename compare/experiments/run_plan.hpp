@@ -30,7 +30,7 @@ struct RunPlan {
   int threads = 1;                         ///< of a process; in LAMMPS, of one thread each, processes of a run
   bool in_lammps = false;                  ///< grains are moved by LAMMPS
   std::size_t from_runs = 0;               ///< recorded runs that the seconds were taken from; 0: from a trial
-  double speed = 0, grains = 0;            ///< grain-steps a second; grains of a bed
+  double speed = 0, grains = 0;            ///< grain-steps a second; grains in a run
   double bed_seconds = 0, memory = 0, bed_bytes = 0, record_bytes = 0;  ///< of one bed, one process, one bed, one run
 
   std::size_t recorded() const;

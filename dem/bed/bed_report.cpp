@@ -42,6 +42,8 @@ void report_stress(const Simulation& simulation, const std::vector<Contact>& con
                    BedReport& report) {
   const Grains& grains = simulation.state().grains;
   const std::vector<std::uint32_t> row = rows_of(simulation);
+  const Domain& domain = simulation.setup().domain;
+  const Periods periods(domain);
   const double area = (region.upper.x - region.lower.x) * (region.upper.y - region.lower.y);
   const double g = -simulation.state().gravity.z;
   for (int cut = 0; cut < cuts; ++cut) {
@@ -50,8 +52,9 @@ void report_stress(const Simulation& simulation, const std::vector<Contact>& con
     for (const Contact& contact : contacts) {
       const Vec3& first = grains.motion[row[contact.first]].position;
       // A contact with the floor or a wall ends at its point there.
-      const Vec3& second =
+      Vec3 second =
           contact.second >= 0 ? grains.motion[row[static_cast<std::size_t>(contact.second)]].position : contact.point;
+      if (domain.periodic[0]) second = first + periods.shortest(second - first);
       here.stress += carried(contact, first, second, z, region) / area;
     }
     const Region above{{region.lower.x, region.lower.y, z}, {region.upper.x, region.upper.y, z + 2 * report.height}};
@@ -165,11 +168,13 @@ std::vector<Motion> watched(const Simulation& simulation) {
 Unrest unrest_since(const Simulation& simulation, const std::vector<Motion>& before, int steps) {
   const Grains& grains = simulation.state().grains;
   const double time = steps * simulation.setup().numerics.dt, g = length(simulation.state().gravity);
+  const Periods periods(simulation.setup().domain);
   UnrestSums sums;
   for (std::size_t k = 0; k < grains.count(); ++k) {
     const Motion &grain = grains.motion[k], &was = before[grains.id[k]];
-    sums.add(mass_share(grains, simulation.state().clumps, k), grain.radius, grain.position - was.position,
-             grain.velocity - was.velocity, g, time);
+    if (grain.held()) continue;
+    sums.add(mass_share(grains, simulation.state().clumps, k), grain.radius,
+             periods.shortest(grain.position - was.position), grain.velocity - was.velocity, g, time);
   }
   for (const Contact& contact : simulation.contacts()) sums.forces += length(contact.force), sums.contacts += 1;
   return sums.means();

@@ -81,8 +81,8 @@ struct UnrestSums {
   Unrest means() const;
 };
 
-/// Where grains are and how they move, by id, before some steps; and their unrest over these. The net force is what
-/// changed the velocities. For a simulation without periodic sides.
+/// Where grains are and how they move, by id, before some steps; and the unrest of those that are free over these. The
+/// net force is what changed the velocities.
 std::vector<Motion> watched(const Simulation& simulation);
 Unrest unrest_since(const Simulation& simulation, const std::vector<Motion>& before, int steps);
 /// Runs the simulation on by these steps.

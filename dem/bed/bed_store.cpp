@@ -40,15 +40,18 @@ bool is_bed_of(const State& state, const BedRecipe& recipe, const Setup& setup) 
                largest = of.sphere * recipe.grading.factor * recipe.soil.radius_max * (1 + rounding);
   const double spheres = static_cast<double>(state.grains.count()) / spheres_of(recipe.soil.shape);
   if (state.grains.count() == 0 || spheres > 1.1 * expected_grains(recipe) + 100) return false;
+  Domain room = setup.domain;
+  if (recipe.periodic)  // a grain is brought back by the other side at the next search
+    room.lower.x -= largest, room.upper.x += largest;
   for (std::size_t k = 0; k < state.grains.count(); ++k) {
     const Motion& grain = state.grains.motion[k];
-    if (!setup.domain.contains(grain.position) || grain.radius < smallest || grain.radius > largest ||
+    if (!room.contains(grain.position) || grain.radius < smallest || grain.radius > largest ||
         (lone_spheres &&
          !(std::abs(grain.inverse_mass * sphere_mass(recipe.soil.grain_density, grain.radius) - 1) < rounding)) ||
         !is_finite(grain.velocity) || !is_finite(state.grains.spin[k].rate))
       return false;
   }
-  const Body bin = bin_of(recipe.size);
+  const Body bin = bin_of(recipe.size, recipe.periodic);
   if (state.bodies.size() != 1 || state.bodies[bin_body].surfaces.size() != bin.surfaces.size()) return false;
   for (std::size_t k = 0; k < bin.surfaces.size(); ++k) {
     const auto* plane = std::get_if<Plane>(&state.bodies[bin_body].surfaces[k].shape);
@@ -124,6 +127,7 @@ std::string recipe_text(const BedRecipe& recipe) {
   if (recipe.laws.twisting != TwistingLaw::none) add("twisting", static_cast<int>(recipe.laws.twisting));
   if (soil.grain_grain.rolling_stiffness > 0) add("rolling_stiffness", soil.grain_grain.rolling_stiffness);
   if (recipe.settled_by == SettledBy::lammps) text += "settled_by lammps\n";
+  if (recipe.periodic) add("periodic", 1);
   add("kinetic", recipe.rest.kinetic), add("unbalanced", recipe.rest.unbalanced), add("every", recipe.rest.every);
   return text;
 }

@@ -11,6 +11,7 @@ namespace soilbin::dem {
 std::array<BedRecipe, 2> limit_beds(const GranularSoil& soil) {
   BedRecipe recipe;
   recipe.soil = soil;
+  recipe.gravity = gravity_on(soil);
   static_cast<LawFlags&>(recipe.laws) = laws_of(soil);
   const double d = mean_diameter(soil);
   recipe.size = {.length = 15 * d, .width = 10 * d, .depth = 10 * d};

@@ -28,7 +28,8 @@ struct DensityLimits {
   double loosest = 0, densest = 0;
 };
 
-/// The beds that give the limits: 15 x 10 x 10 mean diameters, packing 1; the loosest, then the densest.
+/// The beds that give the limits: 15 x 10 x 10 mean diameters, packing 1, under the soil's own gravity; the
+/// loosest, then the densest.
 std::array<BedRecipe, 2> limit_beds(const GranularSoil& soil);
 
 /// Settles both beds where the store lacks them. Throws what settle_bed throws.

@@ -127,6 +127,16 @@ void check(const BedRecipe& recipe) {
         fmt::format("a bed of {:.4g} x {:.4g} x {:.4g} m is less "
                     "than two grains of {:.4g} m across",
                     length, width, depth, 2 * largest));
+  constexpr double shortest_period =
+      12;  // in largest radii: four times what a contact reaches, with the search's margin
+  if (recipe.periodic && !(length >= shortest_period * largest))
+    throw InputError(fmt::format(
+        "a bed that repeats itself every {:.4g} m is too short for grains of up to {:.4g} m: {:.4g} m at least\n"
+        "  hint: --bed-length {:.4g}m, the wheel's radius or more",
+        length, 2 * largest, shortest_period * largest, shortest_period * largest));
+  if (recipe.periodic && recipe.settled_by == SettledBy::lammps)
+    throw InputError(
+        "LAMMPS settles no bed that repeats itself along the track\n  hint: leave out --settled-by lammps");
   if (!(recipe.settling_friction >= 0 && recipe.settling_friction <= 1))
     throw InputError("settling_friction must lie in 0 .. 1");
   constexpr double least_share = 1e-4;  // of the usual step: beyond it no bed settles in a person's life
@@ -156,20 +166,26 @@ Setup setup_of(const BedRecipe& recipe, int threads) {
   const double r = recipe.grading.factor * soil.radius_max;
   setup.domain.lower = {-r, -r, -r};
   setup.domain.upper = {recipe.size.length + r, recipe.size.width + r, headroom};
+  if (recipe.periodic) {
+    setup.domain.lower.x = 0, setup.domain.upper.x = recipe.size.length;
+    setup.domain.periodic[0] = true;
+  }
   setup.numerics.dt = recipe.dt > 0 ? recipe.dt : longest_step(soil);
   setup.numerics.threads = threads;
   return setup;
 }
 
-Body bin_of(const BedSize& size) {
+Body bin_of(const BedSize& size, bool periodic) {
   Body bin;
   bin.name = "bin";
   const auto plane = [&](const Vec3& point, const Vec3& normal) {
     bin.surfaces.push_back({Plane{point, normal}, grain_material});
   };
   plane({0, 0, 0}, {0, 0, 1});
-  plane({0, 0, 0}, {1, 0, 0});
-  plane({size.length, 0, 0}, {-1, 0, 0});
+  if (!periodic) {
+    plane({0, 0, 0}, {1, 0, 0});
+    plane({size.length, 0, 0}, {-1, 0, 0});
+  }
   plane({0, 0, 0}, {0, 1, 0});
   plane({0, size.width, 0}, {0, -1, 0});
   return bin;
@@ -263,7 +279,7 @@ SettledBed settle_bed(const BedRecipe& recipe, const WorkOptions& how) {
   check(recipe);
   Simulation simulation(setup_of(recipe, how.threads));
   simulation.set_gravity({0, 0, -recipe.gravity});
-  simulation.add_body(bin_of(recipe.size));
+  simulation.add_body(bin_of(recipe.size, recipe.periodic));
   GrainMaker maker(recipe.soil, recipe.packing);
   pour(recipe, [&](const Vec3& centre, double ball) { maker.put(simulation, centre, ball); });
   BedRun run(simulation, how);

@@ -63,6 +63,7 @@ struct BedRecipe {
   ContactLaws laws;
   RestTest rest;
   SettledBy settled_by = SettledBy::soilbin;
+  bool periodic = false;  ///< along x: no end walls, and the bed repeats itself without a seam (rig/moving_patch.hpp)
 };
 
 /// Where the bed's body stands in State::bodies: floor and four walls, planes of the grains' own material.
@@ -114,8 +115,8 @@ double expected_grains(const BedRecipe& recipe);
 void check(const BedRecipe& recipe);
 /// Numerics and the grains' material, with the whole friction.
 Setup setup_of(const BedRecipe& recipe, int threads);
-/// Floor and walls.
-Body bin_of(const BedSize& size);
+/// Floor and walls; of a periodic bed without those at its ends.
+Body bin_of(const BedSize& size, bool periodic = false);
 /// Gives the balls around all grains of the recipe, where they begin to fall, to `put`; spheres fill theirs. A graded
 /// bed takes 32 bytes a grain meanwhile.
 void pour(const BedRecipe& recipe, const GrainSink& put);

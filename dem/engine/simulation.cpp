@@ -9,6 +9,7 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <unordered_map>
 
 #include "dem/engine/rayleigh_time.hpp"
 #include "dem/engine/step.hpp"
@@ -360,6 +361,88 @@ std::size_t Simulation::hold_grains(const std::function<bool(const GrainNow&)>& 
     search(world_);
   });
   return rows.size();
+}
+
+namespace {
+
+/// Rows by id; throws where an id is not there.
+class RowsById {
+ public:
+  explicit RowsById(const Grains& grains) {
+    for (std::uint32_t row = 0; row < grains.count(); ++row) rows_.emplace(grains.id[row], row);
+  }
+  void add(GrainId id, std::uint32_t row) {
+    if (!rows_.emplace(id, row).second) throw InputError(fmt::format("there is a grain {} already", id));
+  }
+  std::uint32_t operator[](GrainId id) const {
+    const auto found = rows_.find(id);
+    if (found == rows_.end()) throw InputError(fmt::format("there is no grain {}", id));
+    return found->second;
+  }
+
+ private:
+  std::unordered_map<GrainId, std::uint32_t> rows_;
+};
+
+/// Appends contacts that have been made to a list that the next search takes them from.
+void append_made(PairList& pairs, const std::vector<BroughtContact>& contacts, const RowsById& rows,
+                 const Grains& grains) {
+  std::size_t at = pairs.first.size();
+  const std::size_t batches = pairs.batches() + (contacts.size() + batch_size - 1) / batch_size;
+  pairs.first.resize(batches * batch_size, grains.idle_first());
+  pairs.second.resize(batches * batch_size, grains.idle_second());
+  pairs.kind.resize(batches * batch_size);
+  pairs.memory.resize(batches * batch_size * memory_size);
+  pairs.touching.resize(batches);
+  for (const BroughtContact& contact : contacts) {
+    pairs.first[at] = rows[contact.first], pairs.second[at] = rows[contact.second];
+    pairs.touching[at / batch_size] |= static_cast<std::uint8_t>(1u << (at % batch_size));
+    for (int what = 0; what < memory_size; ++what) pairs.remembered(at, what) = contact.memory[what];
+    ++at;
+  }
+}
+
+}  // namespace
+
+void Simulation::exchange(const Exchange& what) {
+  State& s = world_.state;
+  if (!s.clumps.all.empty()) throw InputError("grains of several spheres are not exchanged");
+  settle_changes(world_);
+  for (const NewGrain& grain : what.enters)
+    if (!world_.setup.domain.contains(grain.position)) throw InputError(outside(grain.position));
+  with_energy_counted(world_, [&] {
+    Grains& all = s.grains;
+    RowsById rows(all);
+    std::vector<std::uint8_t> gone(all.count());
+    for (std::size_t row = 0; row < all.count(); ++row) {
+      Motion& grain = all.motion[row];
+      gone[row] = what.leaves && what.leaves(all.id[row], grain);
+      if (gone[row] || grain.held() || !what.stays || !what.stays(all.id[row], grain)) continue;
+      grain.velocity = all.spin[row].rate = {};
+      grain.inverse_mass = all.spin[row].inverse_inertia = 0;
+    }
+    for (const LetGo& let_go : what.let_go) {
+      const std::uint32_t row = rows[let_go.grain];
+      const double radius = all.motion[row].radius;
+      all.motion[row].inverse_mass = 1 / let_go.mass;
+      all.spin[row].inverse_inertia = 1 / (0.4 * let_go.mass * radius * radius);
+    }
+    for (const NewGrain& grain : what.enters) {
+      rows.add(grain.id, static_cast<std::uint32_t>(all.count()));
+      all.add(grain);
+      s.next_id = std::max(s.next_id, grain.id + 1);
+    }
+    gone.resize(all.count());
+    append_made(s.pairs, what.contacts, rows, all);
+    if (s.surfaces.empty()) s.surfaces.resize(1);
+    for (const BroughtOnSurface& brought : what.on_surfaces) {
+      s.surfaces.front().made.push_back(brought.contact);
+      s.surfaces.front().made.back().who.grain = rows[brought.grain];
+    }
+    wake_all(s);
+    prepare(world_);
+    search(world_, gone);
+  });
 }
 
 void Simulation::run(std::int64_t steps) {

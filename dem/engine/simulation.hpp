@@ -12,6 +12,7 @@
 #include <functional>
 
 #include "dem/engine/evaluation.hpp"
+#include "dem/engine/exchange.hpp"
 #include "dem/engine/thread_pace.hpp"
 #include "dem/engine/world.hpp"
 
@@ -44,6 +45,10 @@ class Simulation {
   /// clump of which one sphere is meant is held as a whole. Gives how many are newly held. For a rough base: settle a
   /// bed, hold a slice of it, remove the rest.
   std::size_t hold_grains(const std::function<bool(const GrainNow&)>& which);
+  /// Lets grains leave, be held, be let go and come in between two steps, with one search for all of it. The ledger
+  /// counts the energy that comes and goes. Throws InputError for clumps, for an id that is taken or unknown, and for a
+  /// place outside the domain.
+  void exchange(const Exchange& what);
   /// Gives the body's index. Throws InputError for an unknown material or a mass or inertia that isn't positive.
   int add_body(Body body);
   /// To change between steps what drives a body and what it weighs: velocity, spin, servo, what is applied, which

@@ -11,7 +11,8 @@ namespace fs = std::filesystem;
 
 template <class Notes>
 void parts(Notes& notes, BedRecipe& recipe) {
-  auto& [soil, size, packing, grading, settling_friction, gravity, dt, laws, rest, settled_by] = recipe;
+  auto& [soil, size, packing, grading, settling_friction, gravity, dt, laws, rest, settled_by, periodic] =
+      recipe;  // LAMMPS settles none that is periodic
   auto& [radius_min, radius_max, density, gravity_there, young, poisson, rolling, twisting, shape, spacing, grain_grain,
          grain_tire,
          sources] = soil;  // LAMMPS settles spheres alone; sources change no bed, and gravity is the recipe's

@@ -27,6 +27,7 @@ BedRecipe DemModel::recipe(const Scenario& scenario) const {
   recipe.grading = grading_for(scenario.tire, recipe.soil, settings_.graded);
   recipe.settling_friction = settings_.settling_friction;
   recipe.settled_by = settings_.settled_by;
+  recipe.periodic = settings_.rig.patch;
   recipe.dt = settings_.bed_dt.value_or(settings_.rig.dt);
   return recipe;
 }
@@ -39,6 +40,10 @@ std::shared_ptr<const SettledBed> DemModel::bed(const BedRecipe& recipe) const {
 
 void DemModel::check(const Scenario& scenario) const {
   const BedRecipe asked = recipe(scenario);
+  if (settings_.rig.patch && settings_.lammps)
+    throw InputError("a moving patch is simulated by soilbin's own engine alone\n  hint: leave out --engine lammps");
+  if (settings_.rig.patch && asked.soil.shape != GrainShape::sphere)
+    throw InputError("a moving patch takes grains of one sphere\n  hint: shape: sphere, or a fixed bed");
   way_in_bin(asked.size, scenario.tire, settings_.rig);
   if (!(settings_.rig.dt >= 0))
     throw InputError(fmt::format("a time step of {} s: above 0, or 0 for the longest that is safe", settings_.rig.dt));
@@ -77,6 +82,7 @@ void check_steps(double steps, double step, const char* hint) {
 
 void DemModel::check(const Scenario& scenario, const OperatingCondition& at) const {
   wheel_motion(at, scenario.tire.radius);
+  check_patch(settings_.rig, at);
   check(scenario);
   check_steps(expected_steps(scenario, at), step_of(recipe(scenario), settings_.rig),
               "a higher speed, a shorter way (--travel), shorter times of the rig, fewer passes");
@@ -110,6 +116,7 @@ TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondi
     throw;
   }
   tell_of_ends(scenario.tire, run.result.sinkage.value);
+  tell_of_patch(run, asked);
   if (settings_.on_run) settings_.on_run(run);
   finished();
   return run.result;
@@ -125,9 +132,36 @@ void DemModel::tell_of_ends(const Tire& tire, double sinkage) const {
       reach, rig.behind, rig.ahead));
 }
 
+void DemModel::tell_of_patch(const WheelRun& run, const BedRecipe& bed) const {
+  constexpr double much = 0.1;  // mean diameters (chosen; docs/lab/soil-bin.md, 'A moving patch')
+  const double share = run.patch.disturbed / mean_diameter(bed.soil);
+  if (run.patch.grains == 0 || !settings_.how.tell) return;
+  const double error = run.result.drawbar_pull.std_error / run.result.at.load;
+  if (settings_.rig.travel == 0 && !(error <= settings_.rig.until_error))
+    settings_.how.tell(
+        fmt::format("note: after {:.3g} m, the longest way on a patch, the mean pull is known to {:.2g} of the load, "
+                    "not to {:.2g}\n"
+                    "  hint: --packings, or a larger --until-error",
+                    run.samples.back().travel, error, settings_.rig.until_error));
+  if (share < much) return;
+  settings_.how.tell(fmt::format(
+      "note: where the patch ends ahead, the wheel had moved the soil by {:.2g} of a grain's diameter: that end is too "
+      "near\n  hint: more than --ahead {:.4g}m",
+      share, settings_.rig.ahead));
+}
+
+double DemModel::grains_of_run(const Scenario& scenario) const {
+  const BedRecipe asked = recipe(scenario);
+  const Rig& rig = settings_.rig;
+  const double patch = rig.behind + rig.ahead + 2 * slab_of_patch(asked);
+  return expected_grains(asked) * (rig.patch ? patch / asked.size.length : 1);
+}
+
 GrainDriveRecord DemModel::drive(const Scenario& scenario, const Drive& drive, int samples) const {
   check_drive(drive);
   if (settings_.lammps) throw InputError("a wheel that is free along the bin is driven by the engine alone");
+  if (settings_.rig.patch)
+    throw InputError("a drive has no moving patch: its wheel may turn back\n  hint: leave out --patch");
   check(scenario);
   const double step = step_of(recipe(scenario), settings_.rig);
   check_steps(drive.duration / step, step, "a shorter duration of the drive");

@@ -72,6 +72,9 @@ class DemModel : public Model {
   /// Steps of a run, from the tilt to the end of its way, about.
   double expected_steps(const Scenario& scenario, const OperatingCondition& at) const;
 
+  /// Grains in a run at once, about: those of the bed, or of the moving patch.
+  double grains_of_run(const Scenario& scenario) const;
+
   /// The bed that a scenario's soil gets.
   BedRecipe recipe(const Scenario& scenario) const;
   /// The bed of a recipe, from where beds are kept or settled now.
@@ -80,6 +83,8 @@ class DemModel : public Model {
  private:
   /// Where a sunken wheel reached over an end of the bin.
   void tell_of_ends(const Tire& tire, double sinkage) const;
+  /// Where the soil at the front end of a moving patch had been moved.
+  void tell_of_patch(const WheelRun& run, const BedRecipe& bed) const;
   /// With the restart's file: `kind` and key.
   Checkpoints checkpoints(const std::string& kind, const std::string& inputs) const;
   Checkpoints checkpoints_of(const Scenario& scenario, const OperatingCondition& at) const;

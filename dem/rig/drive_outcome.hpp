@@ -39,7 +39,7 @@ struct SteadyDrive {
   Estimate sinkage;           ///< [m]
   Estimate torque;            ///< of the motor [N m]
   Estimate forward;           ///< force of the soil along travel [N]
-  double drift = 0;           ///< largest drift_over_error of speed, sinkage and torque
+  double drift = 0;           ///< SteadyPart::drift of speed, sinkage and torque
   bool steady = false;        ///< whether that is at most Rig::steady_drift
 };
 

@@ -204,6 +204,7 @@ int follow(Child& child, const WorkOptions& how, const std::function<void()>& wh
 void refuse_what_it_lacks(const Rig& rig) {
   if (rig.onlooker.look)
     throw InputError("runs in LAMMPS keep no motion of the grains\n  hint: leave out --replay and --paraview");
+  if (rig.patch) throw InputError("runs in LAMMPS have no moving patch\n  hint: leave out --engine lammps");
   if (rig.ledger) throw InputError("runs in LAMMPS keep no ledger of energy");
 }
 

@@ -51,6 +51,8 @@ void add_rig(Inputs& to, const Rig& rig) {
   add(to, "rig.sleep_mean_speed", rig.sleep_speed);
   if (rig.sleep_speed > 0) add(to, "rig.sleep_time", rig.sleep_time);
   if (rig.drive_torque) add(to, "rig.drive_torque", *rig.drive_torque);
+  if (rig.patch) add(to, "rig.patch", 1);  // keys of runs without stay
+  if (rig.patch && rig.travel == 0) add(to, "rig.until_error", rig.until_error);
 }
 
 /// To be raised when the same inputs give other bits, or a restart keeps something else.

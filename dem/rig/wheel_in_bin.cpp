@@ -26,6 +26,16 @@ Setup run_setup(const WheelOnBed& on, int threads) {
 
 namespace {
 
+/// Refuses a bed too narrow for the wheel.
+void check_width(const BedSize& size, const Tire& tire) {
+  if (size.width < 1.4999 * tire.width)  // 150 mm is 1.5 times 100 mm, whatever rounding says
+    throw InputError(
+        fmt::format("a bed {:.4g} m wide is too narrow for a tire "
+                    "of {:.4g} m: at least 1.5 times its width"
+                    "\n  hint: --bed-width {:.4g}m",
+                    size.width, tire.width, 1.5 * tire.width));
+}
+
 /// Refuses a wheel that stands in an end wall. `flag`: --behind or --ahead; `room`: from the axle to that wall [m].
 void check_end(const char* flag, double room, const Tire& tire) {
   const double outer = outer_radius(tire);
@@ -40,6 +50,11 @@ void check_end(const char* flag, double room, const Tire& tire) {
 }  // namespace
 
 double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig) {
+  if (rig.patch) {
+    check_end("--behind", rig.behind, tire), check_end("--ahead", rig.ahead, tire);
+    check_width(size, tire);
+    return rig.travel > 0 ? rig.travel : longest_way_on_patch * outer_radius(tire);
+  }
   const double room = size.length - rig.behind - rig.ahead;
   if (room <= 0)
     throw InputError(
@@ -53,13 +68,18 @@ double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig) {
         "--travel {:.4g} m is more than the {:.4g} m that a bed of {:.4g} m leaves: --behind keeps {:.4g} m "
         "and --ahead {:.4g} m\n  hint: --bed-length {:.4g}m, or a shorter --travel",
         rig.travel, room, size.length, rig.behind, rig.ahead, rig.behind + rig.travel + rig.ahead));
-  if (size.width < 1.4999 * tire.width)  // 150 mm is 1.5 times 100 mm, whatever rounding says
-    throw InputError(
-        fmt::format("a bed {:.4g} m wide is too narrow for a tire "
-                    "of {:.4g} m: at least 1.5 times its width"
-                    "\n  hint: --bed-width {:.4g}m",
-                    size.width, tire.width, 1.5 * tire.width));
+  check_width(size, tire);
   return rig.travel > 0 ? std::min(rig.travel, room) : room;
+}
+
+void check_patch(const Rig& rig, const OperatingCondition& at) {
+  if (!rig.patch) return;
+  if (at.pass > 1)
+    throw InputError(fmt::format(
+        "pass {} on a moving patch: it has left the rut behind\n  hint: a fixed bed, without --patch", at.pass));
+  if (!(rig.until_error > 0 && rig.until_error < 1))
+    throw InputError(
+        fmt::format("an error of the mean pull of {:.4g} of the load: above 0 and below 1", rig.until_error));
 }
 
 double reach_at(const Tire& tire, double sinkage) {

@@ -9,10 +9,12 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 
 #include "dem/bed/settled_bed.hpp"
+#include "dem/rig/moving_patch.hpp"
 #include "dem/rig/process_sums.hpp"
 #include "dem/rig/rut.hpp"
 #include "dem/rig/staged_run.hpp"
@@ -63,9 +65,19 @@ void parts(Notes& notes, SampleUnderWay& s) {
 /// once it has sunk by 13 % of that radius. The paper's tire has 0.7.
 inline constexpr double least_room = 0.5;
 
-/// The way that the axle may go [m]. Throws InputError for a bed too short for it or too narrow, and for an axle that
-/// least_room keeps from where it begins or ends.
+/// Outer radii that a wheel goes on a moving patch at most, and at least, where it goes until its pull is known
+/// (chosen).
+inline constexpr double longest_way_on_patch = 30, shortest_way_on_patch = 4;
+
+/// By which a patch advances: as thick as what is held at its ends [m].
+inline double slab_of_patch(const BedRecipe& recipe) { return 4 * recipe.grading.factor * recipe.soil.radius_max; }
+
+/// The way that the axle may go [m]; on a moving patch the longest way that it may take. Throws InputError for a bed too short
+/// for the way or too narrow, and for an axle that least_room keeps from where it begins or ends.
 double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig);
+
+/// Throws InputError for what a moving patch does not have: a later pass over the rut, which it has left behind.
+void check_patch(const Rig& rig, const OperatingCondition& at);
 
 /// How far from the axle, along the bin, a wheel that has sunk so far [m] reaches at the height of the surface [m].
 double reach_at(const Tire& tire, double sinkage);
@@ -100,6 +112,8 @@ class WheelInBinOf {
   void tilt();
   /// Measures the surface and puts the wheel over it.
   void put_wheel();
+  /// Cuts the moving patch out of the bed, which is a tile of it so far; nothing without Rig::patch.
+  void open_patch();
   /// Brings `force` on evenly and lets the wheel rest under it.
   void lower(const Vec3& force);
   /// The soil's mean moment on the wheel over the second half of that rest [N m].
@@ -125,8 +139,12 @@ class WheelInBinOf {
   const WheelStance& stance() const { return stance_; }
   /// Height of the undisturbed surface, mean over the track [m].
   double surface() const { return surface_; }
-  /// Height of the whole bed's surface, where the wheel is put down.
-  const SurfaceHeight& before() const { return before_; }
+  /// The surface of the whole bed, or of the patch, before the wheel and now.
+  SurfaceHeight before() const;
+  SurfaceHeight surface_now() const;
+  /// Whether the patch has gone on from there, x [m].
+  bool has_left(double x) const { return patch_ && x < patch_->rear(); }
+  const std::optional<MovingPatch>& patch() const { return patch_; }
   /// Where the axle is put down, x in the bin [m].
   double begin() const { return rig_.behind; }
   /// Depth of the tread base below the undisturbed surface, now [m].
@@ -137,11 +155,19 @@ class WheelInBinOf {
   template <class Notes>
   void state(Notes& notes) {
     notes(wheel_, surface_, next_look_, before_, moment_at_rest_, sample_);
+    if (!rig_.patch) return;
+    bool open = patch_.has_value();
+    notes(open);
+    if (!open) return;
+    if (!patch_) patch_.emplace(tile_of(bed_.setup, bed_.state), patch_size());
+    patch_->state(notes, tilting() > 0);  // else the tile is the bed as it settled
   }
 
  private:
   void put_body();
   void show();
+  PatchSize patch_size() const { return {rig_.behind, rig_.ahead, slab_of_patch(bed_.recipe)}; }
+  Footprint window() const { return {patch_->rear(), patch_->front(), 0, bed_.recipe.size.width}; }
 
   const SettledBed& bed_;
   const Tire& tire_;
@@ -152,6 +178,7 @@ class WheelInBinOf {
   int wheel_ = -1;
   double surface_ = 0, next_look_ = 0;
   SurfaceHeight before_;
+  std::optional<MovingPatch> patch_;
   Vec3 moment_at_rest_;
   SampleUnderWay sample_;
 };
@@ -193,6 +220,29 @@ double WheelInBinOf<Run>::free_height() const {
 }
 
 template <class Run>
+void WheelInBinOf<Run>::open_patch() {
+  if (!rig_.patch) return;
+  if constexpr (std::is_same_v<Run, StagedRun>)
+    run_.once([&] {
+      patch_.emplace(tile_of(simulation().setup(), simulation().state()), patch_size());
+      simulation() = patch_->open(simulation().setup(), simulation().state(), way());
+    });
+}
+
+template <class Run>
+SurfaceHeight WheelInBinOf<Run>::before() const {
+  return patch_ ? patch_->undisturbed(window(), bed_.recipe.soil.radius_min / 2) : before_;
+}
+
+template <class Run>
+SurfaceHeight WheelInBinOf<Run>::surface_now() const {
+  const Grains& grains = own_grains(simulation());
+  const double smallest = bed_.recipe.soil.radius_min;
+  return surface_of_all(simulation(), patch_ ? surface_height(grains, window(), smallest / 2)
+                                             : bed_surface(grains, bed_.recipe.size, smallest));
+}
+
+template <class Run>
 void WheelInBinOf<Run>::put_wheel() {
   run_.once([&] { put_body(); });
 }
@@ -202,8 +252,14 @@ void WheelInBinOf<Run>::put_body() {
   const Grains& grains = own_grains(simulation());
   const double y = bed_.recipe.size.width / 2, radius = bed_.recipe.soil.radius_min;
   const Footprint track{rig_.behind, rig_.behind + way(), y - tire_.width / 2, y + tire_.width / 2};
-  surface_ = surface_of_all(simulation(), surface_height(grains, track, radius / 4)).mean();
-  before_ = surface_of_all(simulation(), bed_surface(grains, bed_.recipe.size, radius));
+  if (patch_) {  // over a whole tile, which the wheel meets again and again
+    Footprint tile = track;
+    tile.x_upper = tile.x_lower + bed_.recipe.size.length;
+    surface_ = patch_->undisturbed(tile, radius / 4).mean();
+  } else {
+    surface_ = surface_of_all(simulation(), surface_height(grains, track, radius / 4)).mean();
+    before_ = surface_now();
+  }
 
   Body body;
   body.name = "wheel";
@@ -242,6 +298,8 @@ void WheelInBinOf<Run>::begin_sample(std::int64_t steps) {
 template <class Run>
 void WheelInBinOf<Run>::step() {
   run_.step();
+  if constexpr (std::is_same_v<Run, StagedRun>)
+    if (patch_) patch_->follow(simulation(), wheel().position.x);
   if (!is_sampling()) return;
   ++sample_.taken;
   const double each = 1 / static_cast<double>(sample_.steps);

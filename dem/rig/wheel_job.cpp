@@ -32,9 +32,9 @@ void parts(Notes& notes, OperatingCondition& at) {
 
 template <class Notes>
 void parts(Notes& notes, Rig& rig) {
-  auto& [mass, tilting, lowering, resting, starting, behind, ahead, travel, sampling, sectors, inertia, meshing, young,
-         poisson, dt, skin, deepest_overlap, sleep_speed, sleep_time, ledger, steady_drift, drive_torque, onlooker] =
-      rig;  // the onlooker stays with the command
+  auto& [mass, tilting, lowering, resting, starting, behind, ahead, travel, patch, until_error, sampling, sectors,
+         inertia, meshing, young, poisson, dt, skin, deepest_overlap, sleep_speed, sleep_time, ledger, steady_drift,
+         drive_torque, onlooker] = rig;  // the onlooker stays with the command; LAMMPS has no moving patch
   notes(mass, tilting, lowering, resting, starting, behind, ahead, travel, sampling, sectors, inertia, meshing.edge,
         meshing.chevron_angle, meshing.drawn, young, poisson, dt, skin, deepest_overlap, sleep_speed, sleep_time,
         ledger, steady_drift, drive_torque);

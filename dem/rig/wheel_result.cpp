@@ -95,6 +95,14 @@ void tell_stresses(TractionResult& result, std::span<const WheelSample> samples,
 
 }  // namespace
 
+bool pull_is_known(std::span<const WheelSample> samples, const Tire& tire, const OperatingCondition& at,
+                   const Rig& rig) {
+  const Channels all = channels_of(samples, wheel_motion(at, tire.radius), at.force_frame);
+  const SteadyPart part = steady_part({all.pull, all.torque, all.sinkage});
+  if (samples.size() - part.from < 16 || part.drift > rig.steady_drift) return false;
+  return mean_with_error(std::span(all.pull).subspan(part.from)).std_error <= rig.until_error * at.load;
+}
+
 void summarise(WheelRun& run, const Tire& tire, const OperatingCondition& at, const Rig& rig) {
   const WheelMotion motion = wheel_motion(at, tire.radius);
   const Channels all = channels_of(run.samples, motion, at.force_frame);

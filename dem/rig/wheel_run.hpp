@@ -5,6 +5,7 @@
 //   run.result.drawbar_pull.value, run.steady  // mean over the steady part [N]; whether there is one
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -46,14 +47,20 @@ struct Onlooker {
 
 /// How the wheel is held, driven and read.
 struct Rig {
-  double mass = 0;         ///< that heaves with the wheel [kg]; 0: the load's, a dead weight
-  double tilting = 0.3;    ///< time in which gravity turns, where the bed is inclined [s]
-  double lowering = 0.5;   ///< time in which the load comes on, evenly [s]
-  double resting = 0.2;    ///< time under the whole load before the start [s]
-  double starting = 0.2;   ///< time in which speed and rotation come on, evenly [s]
-  double behind = 0.35;    ///< of the axle to the rear end of the bin, at the start [m]
-  double ahead = 0.5;      ///< of the axle to the front end, when the run ends [m]
-  double travel = 0;       ///< of the axle [m]; 0: as far as the bin lets it
+  double mass = 0;        ///< that heaves with the wheel [kg]; 0: the load's, a dead weight
+  double tilting = 0.3;   ///< time in which gravity turns, where the bed is inclined [s]
+  double lowering = 0.5;  ///< time in which the load comes on, evenly [s]
+  double resting = 0.2;   ///< time under the whole load before the start [s]
+  double starting = 0.2;  ///< time in which speed and rotation come on, evenly [s]
+  double behind = 0.35;   ///< of the axle to the rear end of the bin, at the start [m]
+  double ahead = 0.5;     ///< of the axle to the front end, when the run ends [m]
+  double travel = 0;      ///< of the axle [m]; 0: as far as the bin lets it
+  /// Only the soil from `behind` to `ahead` of the axle is simulated, and goes along with it (moving_patch.hpp); the
+  /// bed is periodic.
+  bool patch = false;
+  /// Of a patch without `travel`: the wheel goes on until the run is steady and the standard error of its mean pull is
+  /// this share of the load; longest_way_on_patch at most.
+  double until_error = 0.01;
   double sampling = 0.01;  ///< a sample's time [s]; forces are means over all its steps
   int sectors = 180;       ///< of the rim, for stresses
   double inertia = 0;      ///< about the axle, where the rotation is free [kg m^2]; 0: mass r^2/2
@@ -68,7 +75,7 @@ struct Rig {
   /// its errors of what it pulls with all awake (docs/lab/dem-performance.md).
   double sleep_speed = 0.003, sleep_time = 0.8;
   bool ledger = false;      ///< tells where the power goes; a step takes about twice as long
-  double steady_drift = 3;  ///< largest drift_over_error of a steady run
+  double steady_drift = 3;  ///< largest SteadyPart::drift of a steady run
   /// A torque held instead of the rotation [N m]; the rotation is then free and starts at that of the condition's slip.
   /// 0 rolls freely.
   std::optional<double> drive_torque;
@@ -97,6 +104,13 @@ struct WheelSample {
   EnergyLosses ledger;   ///< at its end, since the bed was poured; filled with Rig::ledger
 };
 
+/// Of a run on a moving patch.
+struct PatchReport {
+  double grains = 0;        ///< in it at once; 0: the bed stood still
+  double disturbed = 0;     ///< how far the soil at the front had moved when it was let go, largest mean of a slab [m]
+  std::int64_t thrown = 0;  ///< grains that were thrown over its front end
+};
+
 /// What a run tells.
 struct WheelRun {
   TractionResult result;
@@ -104,22 +118,25 @@ struct WheelRun {
   std::vector<WheelSample> samples;  ///< from the start of the motion on
   std::size_t steady_from = 0;       ///< first sample that counts
   bool steady = false;               ///< whether the stated test holds
-  double drift = 0;                  ///< largest drift_over_error of pull, torque and sinkage
+  double drift = 0;                  ///< SteadyPart::drift of pull, torque and sinkage
   double surface = 0;                ///< height of the undisturbed surface [m]
   Vec3 moment;                       ///< mean, about the wheel's centre [N m]
   BedDensity bed{};
+  PatchReport patch{};
   Rut rut;
   SoilFlow flow;
   double earlier = 0;  ///< on the clock on the wall, before the run was gone on with [s]
 };
 
 /// Runs it. The start-up is cut off at the latest end_of_start_up of pull,
-/// torque and sinkage; the rest is steady where drift_over_error of none is
-/// above Rig::steady_drift. For pass n > 1 the wheel first goes n - 1 times over
+/// torque and sinkage; the rest is steady where neither its halves differ,
+/// nor a trend is in it, nor its last fifth differs, by more than Rig::steady_drift
+/// standard errors (SteadyPart). For pass n > 1 the wheel first goes n - 1 times over
 /// the same stretch at the same condition, each time lifted clear, taken back
 /// and lowered onto its rut; the last pass is told, its sinkage from the
 /// undisturbed surface. Throws InputError for a bed too short or narrow, RunStopped where a grain or the wheel is lost,
-/// NoSolution where the wheel digs itself in to the axle, Stopped. With a path in
+/// NoSolution where the wheel digs itself in to the axle, Stopped. On a moving patch there is one pass: InputError for
+/// more. With a path in
 /// `checkpoints` the run is kept now and then, at its end too, and goes on from
 /// there: with the same bits, where all arguments but how and checkpoints are
 /// the same; InputError where they aren't.

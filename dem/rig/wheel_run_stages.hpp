@@ -46,6 +46,7 @@ class WheelRunStages {
   void start();
   void let_turn();
   void drive();
+  bool is_known() const;
   void end_sample();
   Rut rut_behind() const;
   FlowMeter flow_meter() const;
@@ -127,11 +128,20 @@ FlowMeter WheelRunStages<Run>::flow_meter() const {
   return FlowMeter(mean_diameter(soil), 2 * rim, rim + depth, 0, proportions_of(soil).solid);
 }
 
-/// Samples until the bed ends; over the second half of the way also what the soil does round the wheel.
+/// Whether the pull is known to the error that a run without an end is to have; looked at now and then.
+template <class Run>
+bool WheelRunStages<Run>::is_known() const {
+  constexpr std::size_t between_looks = 20;  // samples
+  if (!rig_.patch || rig_.travel > 0 || samples_.empty() || samples_.size() % between_looks != 0) return false;
+  return bin_.travel() >= shortest_way_on_patch * outer_radius(tire_) && pull_is_known(samples_, tire_, at_, rig_);
+}
+
+/// Samples until the bed ends, or until the pull is known; over the second half of the way also what the soil does
+/// round the wheel.
 template <class Run>
 void WheelRunStages<Run>::drive() {
   run_in_stages().loop(
-      "driving", [&] { return bin_.is_sampling() || bin_.travel() < last_begin(); },
+      "driving", [&] { return bin_.is_sampling() || (bin_.travel() < last_begin() && !is_known()); },
       [&] {
         if (!bin_.is_sampling()) bin_.begin_sample(some_steps(rig_.sampling));
         bin_.step();
@@ -158,18 +168,16 @@ void WheelRunStages<Run>::end_sample() {
 template <class Run>
 Rut WheelRunStages<Run>::rut_behind() const {
   const double rim = outer_radius(tire_), x = bin_.wheel().position.x;
-  const double begun = std::max((x - bin_.begin()) / 2, tire_.radius);
-  const Track track{bed_.recipe.size.width / 2, tire_.width, bin_.begin() + begun, x - rim, x};
-  const GranularSoil& soil = bed_.recipe.soil;
-  const auto& simulation = bin_.simulation();
-  const SurfaceHeight after =
-      surface_of_all(simulation, bed_surface(own_grains(simulation), bed_.recipe.size, soil.radius_min));
-  return rut_between(bin_.before(), after, track, soil.radius_max);
+  double from = bin_.begin() + std::max((x - bin_.begin()) / 2, tire_.radius);
+  if (bin_.has_left(from)) from = bin_.patch()->rear();
+  const Track track{bed_.recipe.size.width / 2, tire_.width, from, x - rim, x};
+  return rut_between(bin_.before(), bin_.surface_now(), track, bed_.recipe.soil.radius_max);
 }
 
 template <class Run>
 void WheelRunStages<Run>::stages() {
   bin_.tilt();
+  bin_.open_patch();
   bin_.put_wheel();
   for (int pass = 1; pass <= at_.pass; ++pass) {
     if (pass > 1) take_back();
@@ -198,6 +206,7 @@ WheelRun WheelRunStages<Run>::run() {
   run.bed = {bed_.report.void_ratio, bed_.report.bulk_density, bed_.report.coordination};
   run.rut = rut_behind();
   summarise(run, tire_, at_, rig_);
+  if (bin_.patch()) run.patch = {bin_.patch()->grains(), bin_.patch()->disturbed(), bin_.patch()->thrown()};
   if (rig_.ledger && law::is_directional(bin_.simulation().setup().laws.rolling))
     run.power.losses.shear_damping = run.power.losses.sliding = std::nan("");  // EnergyLosses: trembling, not energy
   return run;

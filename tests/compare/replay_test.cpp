@@ -14,9 +14,11 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "compare/experiments/replay_recorder.hpp"
 #include "compare/report/javascript.hpp"
 #include "compare/report/sealed_json.hpp"
 #include "scenario/errors.hpp"
+#include "tests/dem/small_bed.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -263,6 +265,32 @@ TEST(Base64, PublishedVectors) {
   EXPECT_EQ(base64("fo"), "Zm8=");
   EXPECT_EQ(base64("foo"), "Zm9v");
   EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+}
+
+// Grains come in ahead of the wheel and leave behind it: each frame shows those that are there.
+TEST(SlowReplay, FollowsAMovingPatchWithThePlacesOfGrainsThatHaveLeft) {
+  dem::BedRecipe recipe = dem::test::small_recipe({0.3, 0.16, 0.06});
+  recipe.periodic = true;
+  const dem::SettledBed tile = dem::settle_bed(recipe, dem::test::with_threads(1));
+  const Tire tire = dem::test::small_wheel();
+  dem::Rig rig;
+  rig.patch = true, rig.behind = 0.12, rig.ahead = 0.16, rig.travel = 0.5;
+  rig.lowering = 0.05, rig.resting = 0.02, rig.starting = 0.05;
+  ReplayRecorder recorder;
+  rig.onlooker = recorder.onlooker();
+  OperatingCondition at;
+  at.load = 20, at.slip = 0.2, at.speed = 0.5;
+  const dem::WheelRun run = dem::run_wheel({tile, tire, recipe.soil.grain_tire, rig}, at, dem::test::with_threads(1));
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("soilbin-patch-" + std::to_string(::getpid()) + ".replay");
+  recorder.write({file, "test"}, "patch", 1);
+  const ReplayFile kept = read_replay(file);
+  std::filesystem::remove(file);
+  EXPECT_GE(kept.frames, 20U);
+  // At least those of a patch at once; no more than the tiles that a patch lies on have, though five tiles' grains
+  // came.
+  EXPECT_GE(static_cast<double>(kept.grains), 0.9 * run.patch.grains);
+  EXPECT_LE(static_cast<double>(kept.grains), run.patch.grains + static_cast<double>(tile.report.grains));
 }
 
 }  // namespace

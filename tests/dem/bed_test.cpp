@@ -241,6 +241,13 @@ TEST(RelativeDensity, RunsFromTheLoosestToTheDensest) {
   EXPECT_TRUE(std::isnan(relative_density(0.6, {0.6, 0.6})));
 }
 
+TEST(RelativeDensity, CountsFromBedsThatSettleUnderTheSoilsOwnGravity) {
+  GranularSoil soil = test::soft_soil();
+  for (const BedRecipe& recipe : limit_beds(soil)) EXPECT_EQ(recipe.gravity, 9.81);
+  soil.gravity = 1.62;
+  for (const BedRecipe& recipe : limit_beds(soil)) EXPECT_EQ(recipe.gravity, 1.62);
+}
+
 // The limits' own beds lie at 0 and 1, friction that keeps grains from sliding lies between, and what is not made yet
 // is not made by asking whether it is known.
 TEST(SlowRelativeDensity, OfABedByNameLiesBetweenItsLimits) {

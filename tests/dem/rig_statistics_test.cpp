@@ -85,6 +85,34 @@ TEST(DriftOverError, TellsATrendFromNoise) {
   EXPECT_GT(drift_over_error(series), 5);
 }
 
+TEST(TrendOverError, AndThatOfTheLastFifthTellWhatHalvesDoNot) {
+  // A rover's wheel that digs itself in by and by: means of the pull by fifths [N], and noise of 6 N.
+  const double fifths[] = {-9, -16, -15, -19, -37};
+  std::vector<double> series = autoregressive(0.7, 200, 11);
+  const double size = std::sqrt(1 - 0.7 * 0.7);  // of noise that has a deviation of 1
+  for (std::size_t k = 0; k < series.size(); ++k) series[k] = 6 * size * series[k] + fifths[k / 40];
+  EXPECT_GT(trend_over_error(series), 3);
+  EXPECT_GT(last_fifth_over_error(series), 3);
+  EXPECT_GT(steady_part({series}).drift, 3);
+  // A change in the last fifth alone.
+  series = autoregressive(0.5, 400, 7);
+  for (std::size_t k = 320; k < 400; ++k) series[k] += 3;
+  EXPECT_GT(last_fifth_over_error(series), 5);
+}
+
+TEST(TrendOverError, IsRarelyLargeWithoutOne) {
+  int trends = 0, fifths = 0;
+  constexpr int series = 200;
+  for (int k = 0; k < series; ++k) {
+    const std::vector<double> noise = autoregressive(0.6, 400, 100 + k);  // 100 times of correlation
+    trends += trend_over_error(noise) > 3, fifths += last_fifth_over_error(noise) > 3;
+  }
+  EXPECT_LE(trends, 0.03 * series);
+  EXPECT_LE(fifths, 0.03 * series);
+  const std::vector<double> even(64, 0.1);
+  EXPECT_EQ(trend_over_error(even) + last_fifth_over_error(even), 0);
+}
+
 /// A run in which every sample is alike: the soil pushes with `force`, the axle's torque is 40 N m.
 WheelRun even_run(const OperatingCondition& at, const Tire& tire, const Vec3& force) {
   const WheelMotion motion = wheel_motion(at, tire.radius);

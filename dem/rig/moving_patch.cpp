@@ -1,0 +1,210 @@
+#include "dem/rig/moving_patch.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "scenario/errors.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+/// Ids are numbered tile by tile; that of x = 0 is not the first, because the patch begins before it.
+constexpr std::int64_t tiles_before = 2;
+
+/// Of one tile to its neighbours at most: a contact reaches no farther.
+constexpr std::int64_t reach_in_tiles = 1;
+
+}  // namespace
+
+Tile tile_of(const Setup& setup, const State& state) {
+  const Domain& domain = setup.domain;
+  if (!domain.periodic[0] || domain.periodic[1] || domain.periodic[2] || domain.lower.x != 0)
+    throw InputError("a tile repeats itself along x alone, from x = 0 on");
+  if (!state.clumps.all.empty())
+    throw InputError("a moving patch takes grains of one sphere\n  hint: shape: sphere, or a fixed bed");
+  Tile tile{.length = domain.upper.x, .grains = {}, .contacts = {}, .on_surfaces = {}};
+  std::vector<std::int32_t> wraps;  // tiles that a grain stands on from where it is told
+  for (std::size_t k = 0; k < state.grains.count(); ++k) {
+    const Motion& grain = state.grains.motion[k];
+    Vec3 at = grain.position;
+    const double tiles = std::floor(at.x / tile.length);
+    at.x -= tiles * tile.length;
+    wraps.push_back(static_cast<std::int32_t>(tiles));
+    tile.grains.push_back({at, grain.radius, 1 / grain.inverse_mass, state.grains.material[k]});
+  }
+  const PairList& pairs = state.pairs;
+  for (std::size_t pair = 0; pair < pairs.first.size(); ++pair) {
+    if (!pairs.touches(pair)) continue;
+    const std::uint32_t a = pairs.first[pair], b = pairs.second[pair];
+    const double apart = state.grains.motion[a].position.x - state.grains.motion[b].position.x;
+    const auto between = static_cast<std::int32_t>(std::nearbyint(apart / tile.length));
+    TileContact contact{.first = a, .second = b, .image = between + wraps[b] - wraps[a]};
+    for (int what = 0; what < memory_size; ++what) contact.memory[what] = pairs.remembered(pair, what);
+    tile.contacts.push_back(contact);
+  }
+  for (const SurfaceContacts& slab : state.surfaces)
+    for (const SurfaceContact& made : slab.made) {
+      if (made.triangle >= 0) throw InputError("a tile lies between planes, not meshes");
+      const auto& [slide, roll] = made.memory;
+      tile.on_surfaces.push_back({.grain = made.who.grain,
+                                  .body = made.who.body,
+                                  .surface = made.who.surface,
+                                  .normal = made.normal,
+                                  .memory = {slide.x, slide.y, slide.z, roll.x, roll.y, roll.z}});
+    }
+  return tile;
+}
+
+MovingPatch::MovingPatch(Tile tile, const PatchSize& size) : tile_(std::move(tile)), size_(size) {
+  double largest = 0;
+  for (const TileGrain& grain : tile_.grains) largest = std::max(largest, grain.radius);
+  if (!(size_.slab >= 2 * largest) || !(size_.slab <= tile_.length))
+    throw InputError(
+        fmt::format("a patch that advances by {:.4g} m: from the largest grain's diameter, {:.4g} m, to the tile's "
+                    "length, {:.4g} m",
+                    size_.slab, 2 * largest, tile_.length));
+}
+
+Vec3 MovingPatch::place(std::int64_t image, std::uint32_t grain) const {
+  Vec3 at = tile_.grains[grain].position;
+  at.x += static_cast<double>(image) * tile_.length;
+  return at;
+}
+
+GrainId MovingPatch::id(std::int64_t image, std::uint32_t grain) const {
+  const std::int64_t id = (image + tiles_before) * static_cast<std::int64_t>(tile_.grains.size()) + grain;
+  if (id < 0 || id >= static_cast<std::int64_t>(~GrainId{0}))
+    throw RunStopped("the way is too long for grains to be numbered: shorten it");
+  return static_cast<GrainId>(id);
+}
+
+Vec3 MovingPatch::home(GrainId id) const {
+  const std::size_t count = tile_.grains.size();
+  return place(static_cast<std::int64_t>(id / count) - tiles_before, static_cast<std::uint32_t>(id % count));
+}
+
+double MovingPatch::grains() const {
+  return static_cast<double>(tile_.grains.size()) * (front() - rear() + 2 * size_.slab) / tile_.length;
+}
+
+/// Copies of the tile's grains with from <= x < to.
+void MovingPatch::for_each_between(
+    double from, double to, const std::function<void(std::int64_t image, std::uint32_t grain, double x)>& visit) const {
+  const auto tile_at = [&](double x) { return static_cast<std::int64_t>(std::floor(x / tile_.length)); };
+  for (std::int64_t image = tile_at(from) - 1; image <= tile_at(to); ++image)
+    for (std::uint32_t grain = 0; grain < tile_.grains.size(); ++grain) {
+      const double x = place(image, grain).x;
+      if (x >= from && x < to) visit(image, grain, x);
+    }
+}
+
+/// Of the copies with from <= x < to, contacts for whose ends `wanted` holds, and those with surfaces of grains for
+/// which it holds twice.
+void MovingPatch::bring_contacts(double from, double to, Exchange& change,
+                                 const std::function<bool(double first, double second)>& wanted) const {
+  const auto between = [&](double x) { return x >= from && x < to; };
+  const auto tile_at = [&](double x) { return static_cast<std::int64_t>(std::floor(x / tile_.length)); };
+  for (std::int64_t image = tile_at(from) - reach_in_tiles; image <= tile_at(to) + reach_in_tiles; ++image) {
+    for (const TileContact& contact : tile_.contacts) {
+      const double first = place(image, contact.first).x, second = place(image + contact.image, contact.second).x;
+      if (between(first) && between(second) && wanted(first, second))
+        change.contacts.push_back(
+            {id(image, contact.first), id(image + contact.image, contact.second), contact.memory});
+    }
+    for (const TileOnSurface& contact : tile_.on_surfaces) {
+      const double x = place(image, contact.grain).x;
+      if (!between(x) || !wanted(x, x)) continue;
+      const auto& m = contact.memory;
+      change.on_surfaces.push_back({id(image, contact.grain),
+                                    {.who = {0, contact.body, contact.surface},
+                                     .triangle = -1,
+                                     .normal = contact.normal,
+                                     .memory = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}}}});
+    }
+  }
+}
+
+/// Copies with from <= x < to come in; those with free_from <= x < free_to are free, the others held.
+void MovingPatch::bring_grains(double from, double to, double free_from, double free_to, Exchange& change) const {
+  for_each_between(from, to, [&](std::int64_t image, std::uint32_t k, double x) {
+    const TileGrain& grain = tile_.grains[k];
+    change.enters.push_back({.id = id(image, k),
+                             .radius = grain.radius,
+                             .mass = x >= free_from && x < free_to ? grain.mass : held_mass,
+                             .material = static_cast<std::uint8_t>(grain.material),
+                             .position = place(image, k)});
+  });
+}
+
+Simulation MovingPatch::open(Setup setup, const State& tile, double way) const {
+  // Grains that are thrown over an end fly no farther than this, and leave at the next advance.
+  const double room = 2 * size_.slab + size_.behind + size_.ahead;
+  setup.domain.periodic[0] = false;
+  setup.domain.lower.x = -room, setup.domain.upper.x = front() + way + room;
+  State begin;
+  begin.step = tile.step, begin.time = tile.time, begin.gravity = tile.gravity, begin.bodies = tile.bodies;
+  Simulation simulation(std::move(setup), std::move(begin));
+  Exchange change;
+  const double from = rear() - size_.slab, to = front() + size_.slab;
+  bring_grains(from, to, rear(), front(), change);
+  const auto is_free = [&](double x) { return x >= rear() && x < front(); };
+  bring_contacts(from, to, change, [&](double first, double second) { return is_free(first) || is_free(second); });
+  simulation.exchange(change);
+  return simulation;
+}
+
+void MovingPatch::follow(Simulation& simulation, double axle) {
+  while (axle >= size_.behind + static_cast<double>(advances_ + 1) * size_.slab) advance(simulation);
+}
+
+void MovingPatch::note_disturbance(const Simulation& simulation, double from, double to) {
+  double sum = 0, count = 0;
+  const Grains& grains = simulation.state().grains;
+  for (std::size_t row = 0; row < grains.count(); ++row) {
+    const Vec3 settled = home(grains.id[row]);
+    if (settled.x < from || settled.x >= to) continue;
+    sum += length(grains.motion[row].position - settled), count += 1;
+  }
+  if (count > 0) disturbed_ = std::max(disturbed_, sum / count);
+}
+
+void MovingPatch::advance(Simulation& simulation) {
+  const double old_rear = rear(), held_from = front(), enters_from = front(advances_ + 1);
+  const double enters_to = front(advances_ + 2), new_rear = static_cast<double>(advances_ + 1) * size_.slab;
+  note_disturbance(simulation, held_from - size_.slab, held_from);
+  Exchange change;
+  double largest = 0;
+  for (const TileGrain& grain : tile_.grains) largest = std::max(largest, grain.radius);
+  change.leaves = [&](GrainId, const Motion& grain) {
+    if (grain.position.x < old_rear) return true;
+    if (grain.held() || grain.position.x < enters_from - 2 * largest) return false;
+    ++thrown_;
+    return true;
+  };
+  change.stays = [&](GrainId, const Motion& grain) { return grain.position.x < new_rear; };
+  for_each_between(held_from, enters_from, [&](std::int64_t image, std::uint32_t grain, double) {
+    change.let_go.push_back({id(image, grain), tile_.grains[grain].mass});
+  });
+  bring_grains(enters_from, enters_to, enters_to, enters_to, change);
+  const auto is_let_go = [&](double x) { return x >= held_from && x < enters_from; };
+  bring_contacts(held_from, enters_to, change,
+                 [&](double first, double second) { return is_let_go(first) || is_let_go(second); });
+  simulation.exchange(change);
+  ++advances_;
+}
+
+SurfaceHeight MovingPatch::undisturbed(const Footprint& over, double spacing) const {
+  SurfaceHeight out = bare_floor(over, spacing);
+  double largest = 0;
+  for (const TileGrain& grain : tile_.grains) largest = std::max(largest, grain.radius);
+  for_each_between(over.x_lower - largest, over.x_upper + largest,
+                   [&](std::int64_t image, std::uint32_t grain, double) {
+                     raise(out, place(image, grain), tile_.grains[grain].radius);
+                   });
+  return out;
+}
+
+}  // namespace soilbin::dem

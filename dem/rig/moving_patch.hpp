@@ -1,0 +1,139 @@
+// A moving patch of soil: of a bed that repeats itself along the track without end, only the stretch around the wheel
+// is simulated, and it goes along with the wheel. Grains enter ahead of it as they have settled, and leave behind it.
+//
+//   MovingPatch patch(tile_of(bed.setup, bed.state), {.behind = 0.3, .ahead = 0.4, .slab = 0.05});  // [m]
+//   Simulation simulation = patch.open(setup, bed.state);
+//   patch.follow(simulation, axle_x);  // between any two steps
+//
+// The tile is a bed that has settled with a periodic length (BedRecipe::periodic), so that copies of it, shifted by
+// whole lengths, fit each other. The patch reaches from `rear()` to `front()` and stands still between two advances. At
+// both ends a slab of grains is held: ahead those of the next slab, at the places where they have settled; behind those
+// that the wheel has left, where they were when the patch went on. So neither end is a wall, and the soil meets its own
+// continuation there. When the axle has gone on by a slab, the slab held ahead is let go, with what its contacts
+// remember of the tile, and the slab beyond it comes in and is held; behind, the next slab is held and the one held so
+// far leaves. What is let go is in equilibrium where the wheel has not moved the soil yet: `disturbed()` tells.
+//
+// Compare the moving patches of Chrono (Tasora et al. 2016; Projectchrono reference manual, "Chrono::Vehicle, granular
+// terrain"), which take away and add loose grains; here nothing falls into place again.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "dem/archive/note_text.hpp"
+#include "dem/bed/surface_height.hpp"
+#include "dem/engine/simulation.hpp"
+
+namespace soilbin::dem {
+
+/// A grain of a tile, 0 <= x < length.
+struct TileGrain {
+  Vec3 position;
+  double radius = 0, mass = 0;  ///< [m], [kg]
+  std::int32_t material = 0;
+};
+
+/// A contact of two grains of a tile, of which the second is that of `image` tiles on.
+struct TileContact {
+  std::uint32_t first = 0, second = 0;
+  std::int32_t image = 0;
+  std::array<double, memory_size> memory{};
+};
+
+/// A contact with a surface of the bed's body.
+struct TileOnSurface {
+  std::uint32_t grain = 0;
+  std::uint16_t body = 0, surface = 0;
+  Vec3 normal;
+  std::array<double, memory_size> memory{};
+};
+
+/// A bed that has settled with a periodic length along x, and what its contacts remember.
+struct Tile {
+  double length = 0;  ///< [m]
+  std::vector<TileGrain> grains;
+  std::vector<TileContact> contacts;
+  std::vector<TileOnSurface> on_surfaces;
+};
+
+/// Throws InputError for a domain that is not periodic along x, for meshes among the bodies, and for grains of several
+/// spheres.
+Tile tile_of(const Setup& setup, const State& state);
+
+/// [m]
+struct PatchSize {
+  double behind = 0, ahead = 0;  ///< of the axle, to where grains are held; behind grows by a slab between two advances
+  double slab = 0;               ///< by which the patch advances; as thick as what is held at each end
+};
+
+class MovingPatch {
+ public:
+  /// The axle begins at x = behind. Throws InputError for a slab thinner than the largest grain's diameter.
+  MovingPatch(Tile tile, const PatchSize& size);
+
+  /// The patch as it begins: setup and bodies, gravity and time are the tile's; `way`: that the axle goes, at most [m].
+  Simulation open(Setup setup, const State& tile, double way) const;
+  /// Advances the patch by as many slabs as the axle has gone on.
+  void follow(Simulation& simulation, double axle);
+
+  double rear() const { return static_cast<double>(advances_) * size_.slab; }  ///< x from which on grains are free [m]
+  double front() const { return front(advances_); }                            ///< x up to which they are [m]
+  std::int64_t advances() const { return advances_; }
+  /// Grains that had been thrown onto what is held ahead, and left where others came in.
+  std::int64_t thrown() const { return thrown_; }
+  /// How far the grains just behind the slab that was let go had moved from where they had settled: their mean, of the
+  /// advance where it was largest so far [m].
+  double disturbed() const { return disturbed_; }
+  /// Grains in the patch at once, about.
+  double grains() const;
+
+  /// The undisturbed surface, seen from above, anywhere along the track.
+  SurfaceHeight undisturbed(const Footprint& over, double spacing) const;
+
+  /// For StagedRun::keep; the tile only where `with_tile`.
+  template <class Notes>
+  void state(Notes& notes, bool with_tile);
+
+ private:
+  double front(std::int64_t advances) const {
+    return size_.behind + size_.ahead + static_cast<double>(advances) * size_.slab;
+  }
+  Vec3 place(std::int64_t image, std::uint32_t grain) const;
+  GrainId id(std::int64_t image, std::uint32_t grain) const;
+  Vec3 home(GrainId id) const;
+  void for_each_between(double from, double to,
+                        const std::function<void(std::int64_t image, std::uint32_t grain, double x)>& visit) const;
+  void bring_contacts(double from, double to, Exchange& change,
+                      const std::function<bool(double first, double second)>& wanted) const;
+  void bring_grains(double from, double to, double free_from, double free_to, Exchange& change) const;
+  void advance(Simulation& simulation);
+  void note_disturbance(const Simulation& simulation, double from, double to);
+
+  Tile tile_;
+  PatchSize size_;
+  std::int64_t advances_ = 0, thrown_ = 0;
+  double disturbed_ = 0;
+};
+
+template <class Notes>
+void parts(Notes& notes, TileGrain& g) {
+  notes(g.position, g.radius, g.mass, g.material);
+}
+template <class Notes>
+void parts(Notes& notes, TileContact& c) {
+  notes(c.first, c.second, c.image, c.memory);
+}
+template <class Notes>
+void parts(Notes& notes, TileOnSurface& c) {
+  notes(c.grain, c.body, c.surface, c.normal, c.memory);
+}
+
+template <class Notes>
+void MovingPatch::state(Notes& notes, bool with_tile) {
+  notes(advances_, thrown_, disturbed_);
+  if (with_tile) notes(tile_.length, tile_.grains, tile_.contacts, tile_.on_surfaces);
+}
+
+}  // namespace soilbin::dem

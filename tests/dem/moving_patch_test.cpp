@@ -1,0 +1,317 @@
+// A moving patch of a bed that repeats itself: at rest without a wheel, and under one as on a fixed bed.
+#include "dem/rig/moving_patch.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dem/bed/bed_store.hpp"
+#include "dem/rig/dem_model.hpp"
+#include "dem/rig/wheel_in_bin.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
+#include "tests/dem/archive_scene.hpp"
+#include "tests/dem/small_bed.hpp"
+#include "tests/dem/worlds.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+using test::Folder;
+using test::small_wheel;
+using test::with_threads;
+using ::testing::HasSubstr;
+
+BedRecipe tile_recipe() {
+  BedRecipe recipe = test::small_recipe({0.3, 0.16, 0.06});
+  recipe.periodic = true;
+  return recipe;
+}
+
+const SettledBed& tile_bed() {
+  static const SettledBed bed = settle_bed(tile_recipe(), with_threads(1));
+  return bed;
+}
+
+double slab() { return slab_of_patch(tile_recipe()); }
+double diameter() { return mean_diameter(tile_recipe().soil); }
+
+/// [m]
+PatchSize small_patch() { return {.behind = 0.12, .ahead = 0.13, .slab = slab()}; }
+
+Setup patch_setup(int threads = 1, bool ledger = false) {
+  Setup setup = tile_bed().setup;
+  setup.numerics.threads = threads, setup.numerics.ledger = ledger;
+  return setup;
+}
+
+/// Goes on without a wheel by some slabs, with steps between.
+void go_on(MovingPatch& patch, Simulation& simulation, int slabs, int steps_each) {
+  for (int k = 0; k < slabs; ++k) {
+    simulation.run(steps_each);
+    patch.follow(simulation, small_patch().behind + static_cast<double>(patch.advances() + 1) * slab());
+  }
+}
+
+TEST(Tile, HoldsAsManyContactsThroughItsSeamAsThroughAnyOtherCut) {
+  const Tile tile = tile_of(tile_bed().setup, tile_bed().state);
+  EXPECT_EQ(tile.grains.size(), tile_bed().report.grains);
+  for (const TileGrain& grain : tile.grains) {
+    EXPECT_GE(grain.position.x, 0);
+    EXPECT_LE(grain.position.x, tile.length);
+  }
+  // Contacts that go through the cut x, the seam being x = 0.
+  const auto through = [&](double x) {
+    int count = 0;
+    for (const TileContact& contact : tile.contacts) {
+      const double a = tile.grains[contact.first].position.x;
+      const double b = tile.grains[contact.second].position.x + contact.image * tile.length;
+      EXPECT_LT(std::abs(a - b), 2.01 * 0.012) << "the image next to the first";
+      for (const int image : {-1, 0, 1}) count += (a + image * tile.length < x) != (b + image * tile.length < x);
+    }
+    return count;
+  };
+  double sum = 0, squares = 0;
+  constexpr int cuts = 14;
+  for (int k = 1; k <= cuts; ++k) {
+    const double here = through(tile.length * k / (cuts + 1));
+    sum += here, squares += here * here;
+  }
+  const double mean = sum / cuts, deviation = std::sqrt(squares / cuts - mean * mean);
+  EXPECT_GT(mean, 20);
+  EXPECT_NEAR(through(0), mean, 4 * deviation);
+}
+
+TEST(MovingPatch, WithoutAWheelStaysAtRestWhileItGoesOn) {
+  MovingPatch patch(tile_of(tile_bed().setup, tile_bed().state), small_patch());
+  Simulation simulation = patch.open(patch_setup(), tile_bed().state, 1);
+  const RestTest& rest = tile_recipe().rest;
+  const auto expect_rest = [&](const char* when) {
+    const Unrest now = unrest(simulation);
+    EXPECT_LT(now.kinetic, rest.kinetic) << when;
+    EXPECT_LT(now.unbalanced, rest.unbalanced) << when;
+  };
+  expect_rest("opened");
+  const int period = static_cast<int>(std::ceil(tile_bed().recipe.size.length / slab()));
+  for (int k = 0; k < 2 * period; ++k) {
+    go_on(patch, simulation, 1, 50);
+    expect_rest("gone on");
+  }
+  EXPECT_NEAR(static_cast<double>(simulation.state().grains.count()), patch.grains(), 0.15 * patch.grains());
+  EXPECT_LT(patch.disturbed(), 1e-3 * diameter());
+  EXPECT_EQ(patch.thrown(), 0);
+}
+
+TEST(MovingPatch, EndsInWhatIsHeldAndNothingElseIs) {
+  MovingPatch patch(tile_of(tile_bed().setup, tile_bed().state), small_patch());
+  Simulation simulation = patch.open(patch_setup(), tile_bed().state, 1);
+  go_on(patch, simulation, 3, 10);
+  int held = 0;
+  for (const Motion& grain : std::span(simulation.state().grains.motion.data(), simulation.state().grains.count())) {
+    const double x = grain.position.x;
+    EXPECT_GE(x, patch.rear() - slab());
+    EXPECT_LT(x, patch.front() + slab());
+    EXPECT_EQ(grain.held(), x < patch.rear() || x >= patch.front()) << x;
+    held += grain.held();
+  }
+  EXPECT_GT(held, 50);
+}
+
+TEST(MovingPatch, LedgerClosesWithWhatEntersAndLeaves) {
+  MovingPatch patch(tile_of(tile_bed().setup, tile_bed().state), small_patch());
+  Simulation simulation = patch.open(patch_setup(1, true), tile_bed().state, 1);
+  // Something to count: all that lies on top gets a push.
+  Body plate = test::mesh_body(box({0.06, 0.06, 0.02}));
+  plate.position = {0.12, 0.08, 0.085};
+  plate.velocity = {0.3, 0, -0.3};
+  simulation.add_body(plate);
+  double leaves_and_enters = 0;
+  for (int k = 0; k < 4; ++k) {
+    simulation.run(100);
+    const double before = simulation.energy().total(), added = simulation.state().ledger.added;
+    patch.follow(simulation, small_patch().behind + static_cast<double>(patch.advances() + 1) * slab());
+    const double scale = simulation.energy().kinetic + std::abs(simulation.energy().potential);
+    EXPECT_NEAR(simulation.energy().total(), before, 1e-12 * scale);
+    leaves_and_enters += std::abs(simulation.state().ledger.added - added);
+  }
+  EXPECT_GT(leaves_and_enters, 1e-4);
+  EXPECT_LT(std::abs(simulation.energy().total()), 0.02 * simulation.body(1).work);
+}
+
+TEST(MovingPatch, SameBitsForThreadsAndFromACopyOfItsState) {
+  const auto begun = [&](MovingPatch& patch, int threads) {
+    return patch.open(patch_setup(threads), tile_bed().state, 1);
+  };
+  MovingPatch one(tile_of(tile_bed().setup, tile_bed().state), small_patch()), three = one;
+  Simulation with_one = begun(one, 1), with_three = begun(three, 3);
+  go_on(one, with_one, 2, 60), go_on(three, with_three, 4, 60);
+  MovingPatch later = one;
+  Simulation resumed(with_one.setup(), with_one.state());
+  go_on(one, with_one, 2, 60), go_on(later, resumed, 2, 60);
+  EXPECT_EQ(test::bits(with_one.state()), test::bits(with_three.state()));
+  EXPECT_EQ(test::bits(with_one.state()), test::bits(resumed.state()));
+}
+
+Rig patch_rig() {
+  Rig rig;
+  rig.behind = 0.12, rig.ahead = 0.16;
+  rig.tilting = 0.1, rig.lowering = 0.1, rig.resting = 0.05;
+  rig.patch = true;
+  return rig;
+}
+
+OperatingCondition uphill() {
+  OperatingCondition at;
+  at.load = 20, at.slip = 0.3, at.speed = 0.3, at.longitudinal_incline = 2 * degree;
+  return at;
+}
+
+WheelRun patch_run(const Rig& rig, const OperatingCondition& at, const WorkOptions& how,
+                   const Checkpoints& checkpoints = {}) {
+  return run_wheel({tile_bed(), small_wheel(), tile_bed().recipe.soil.grain_tire, rig}, at, how, checkpoints);
+}
+
+std::string patch_bits(WheelRun run) {
+  NoteWriter bits;
+  bits(run.samples, run.steady_from, run.drift, run.surface, run.moment, run.flow.vx, run.rut.across, run.rut.along);
+  bits(run.patch.grains, run.patch.disturbed, run.patch.thrown);
+  return bits.text();
+}
+
+TEST(SlowMovingPatch, ARunThatIsStoppedAgainAndAgainTellsTheSame) {
+  const Folder folder;
+  Rig rig = patch_rig();
+  rig.travel = 0.12, rig.ledger = true;
+  const std::string whole = patch_bits(patch_run(rig, uphill(), with_threads(1)));
+  const Checkpoints kept{folder / "run.h5", 0};
+  int stops = 0;
+  for (std::string told; told.empty();) {
+    std::stop_source source;
+    WorkOptions how = with_threads(1 + stops % 2);
+    how.stop = source.get_token();
+    how.progress = [&, said = 0](const Progress&) mutable {
+      if (++said == 8) source.request_stop();
+    };
+    try {
+      told = patch_bits(patch_run(rig, uphill(), how, kept));
+      EXPECT_TRUE(told == whole);
+    } catch (const Stopped&) {
+      ++stops;
+    }
+  }
+  EXPECT_GE(stops, 4);
+}
+
+/// Mean over packings of a channel, and its error from their scatter.
+template <class Read>
+Estimate over(const std::vector<WheelRun>& runs, const Read& read) {
+  double sum = 0, squares = 0;
+  for (const WheelRun& run : runs) sum += read(run), squares += read(run) * read(run);
+  const double n = static_cast<double>(runs.size()), mean = sum / n;
+  return {mean, std::sqrt(std::max(squares / n - mean * mean, 0.0) / (n - 1))};
+}
+
+TEST(SlowMovingPatch, PullsTurnsAndSinksAsOnAFixedBed) {
+  std::vector<WheelRun> fixed, moving;
+  OperatingCondition at = uphill();
+  at.longitudinal_incline = 0;
+  for (const std::uint64_t packing : {1, 2, 3, 4}) {
+    BedRecipe recipe = test::small_recipe({1.18, 0.16, 0.06});
+    recipe.packing = packing;
+    const SettledBed bed = settle_bed(recipe, with_threads(1));
+    Rig rig = patch_rig();
+    rig.patch = false, rig.travel = 0.8, rig.behind = 0.14, rig.ahead = 0.24;
+    const Tire tire = small_wheel();
+    fixed.push_back(run_wheel({bed, tire, recipe.soil.grain_tire, rig}, at, with_threads(1)));
+    recipe.size.length = 0.3, recipe.periodic = true;
+    const SettledBed tile = settle_bed(recipe, with_threads(1));
+    rig.patch = true;
+    moving.push_back(run_wheel({tile, tire, recipe.soil.grain_tire, rig}, at, with_threads(1)));
+    EXPECT_LT(moving.back().patch.grains, 0.48 * static_cast<double>(bed.report.grains));
+    EXPECT_LT(moving.back().patch.disturbed, 0.1 * diameter());
+    EXPECT_NEAR(moving.back().samples.back().travel, 0.8, 0.01);
+    EXPECT_GT(moving.back().rut.across.size(), 5U);
+  }
+  const auto same = [&](const char* what, const auto& read) {
+    const Estimate a = over(fixed, read), b = over(moving, read);
+    EXPECT_NEAR(a.value, b.value, 3.5 * std::hypot(a.std_error, b.std_error)) << what;
+  };
+  same("pull", [](const WheelRun& run) { return run.result.drawbar_pull.value; });
+  same("torque", [](const WheelRun& run) { return run.result.torque.value; });
+  same("sinkage", [](const WheelRun& run) { return run.result.sinkage.value; });
+}
+
+TEST(SlowMovingPatch, GoesOnUntilThePullIsKnown) {
+  OperatingCondition at = uphill();
+  Rig rig = patch_rig();
+  rig.until_error = 0.02;
+  const WheelRun run = patch_run(rig, at, with_threads(1));
+  EXPECT_TRUE(run.steady);
+  EXPECT_LE(run.result.drawbar_pull.std_error, 0.02 * at.load);
+  EXPECT_GT(run.samples.back().travel, shortest_way_on_patch * small_wheel().radius);
+  EXPECT_LT(run.samples.back().travel, longest_way_on_patch * small_wheel().radius);
+}
+
+DemSettings patch_settings() {
+  DemSettings settings;
+  settings.size = tile_recipe().size, settings.rig = patch_rig(), settings.how = with_threads(1);
+  return settings;
+}
+
+Scenario small_scenario() {
+  Scenario scenario;
+  scenario.tire = small_wheel(), scenario.soil.granular = test::soft_soil();
+  return scenario;
+}
+
+template <class Work>
+void expect_refused(const char* why, const Work& work) {
+  try {
+    work();
+    ADD_FAILURE() << "not refused: " << why;
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(why));
+  }
+}
+
+TEST(MovingPatch, RefusesWhatItDoesNotHave) {
+  const Scenario scenario = small_scenario();
+  OperatingCondition again = uphill();
+  again.pass = 2;
+  expect_refused("it has left the rut behind", [&] { DemModel(patch_settings()).check(scenario, again); });
+  Scenario rods = scenario;
+  rods.soil.granular->shape = GrainShape::two_spheres;
+  expect_refused("grains of one sphere", [&] { DemModel(patch_settings()).check(rods); });
+  DemSettings lammps = patch_settings();
+  lammps.lammps.emplace();
+  expect_refused("soilbin's own engine alone", [&] { DemModel(lammps).check(scenario); });
+  DemSettings brief = patch_settings();
+  brief.size.length = 0.1;
+  expect_refused("too short for grains", [&] { DemModel(brief).check(scenario); });
+  DemSettings near = patch_settings();
+  near.rig.ahead = 0.02;
+  expect_refused("--ahead", [&] { DemModel(near).check(scenario); });
+  expect_refused("its wheel may turn back", [&] { DemModel(patch_settings()).drive(scenario, Drive{}); });
+  expect_refused("repeats itself along x", [&] {
+    const SettledBed fixed = settle_bed(test::small_recipe(), with_threads(1));
+    tile_of(fixed.setup, fixed.state);
+  });
+}
+
+TEST(Tile, IsKeptAndFoundAgainApartFromTheBedWithWalls) {
+  const Folder folder;
+  BedRecipe walled = tile_recipe();
+  walled.periodic = false;
+  EXPECT_NE(content_key(walled), content_key(tile_recipe()));
+  BedStore(folder / "").bed(tile_recipe(), with_threads(1));
+  std::string told;
+  WorkOptions how = with_threads(1);
+  how.tell = [&](const std::string& words) { told += words; };
+  const auto found = BedStore(folder / "").bed(tile_recipe(), how);
+  EXPECT_EQ(told, "");
+  EXPECT_EQ(test::bits(found->state), test::bits(tile_bed().state));
+}
+
+}  // namespace
+}  // namespace soilbin::dem
