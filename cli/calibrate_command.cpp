@@ -13,7 +13,6 @@
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
 #include "compare/calibrate/calibration_words.hpp"
-#include "compare/calibrate/decision_words.hpp"
 #include "compare/calibrate/published_sets.hpp"
 #include "compare/measured/csv.hpp"
 #include "compare/sweep/result_json.hpp"

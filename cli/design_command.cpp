@@ -12,7 +12,7 @@
 #include "cli/text_output.hpp"
 #include "compare/measured/csv.hpp"
 #include "compare/sweep/result_json.hpp"
-#include "compare/test_design/test_design.hpp"
+#include "compare/test_design/planned_runs_words.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
 

@@ -11,7 +11,6 @@
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/loop/next_run_words.hpp"
 #include "compare/sweep/result_json.hpp"
 
 namespace soilbin::cli {
@@ -24,12 +23,6 @@ struct LoopOptions {
   int folds = 5;
   unsigned seed = 1;
 };
-
-/// For people: a limit that was given isn't asked for again.
-compare::LoopAnswer without_given_limits(compare::LoopAnswer answer, const compare::Limits& given) {
-  if (answer.next) std::erase_if(answer.next->beyond, [&](const std::string& name) { return given.contains(name); });
-  return answer;
-}
 
 void print_table(const compare::Table& table) {
   if (!table.rows.empty()) fmt::print("\n{}", as_text(table));
@@ -80,7 +73,7 @@ int loop(const LoopOptions& asked, const Session& session) {
     if (asked.details) document["details"] = compare::details_json(answer);
     print_json(std::move(document), doubts.all);
   } else {
-    print_answer(without_given_limits(answer, options.limits), doubts.columns, asked.next);
+    print_answer(answer, doubts.columns, asked.next);
   }
   return outputs.status(done);
 }

@@ -51,7 +51,7 @@ struct Competitor {
 /// one and more.
 std::vector<Competitor> competitors(const Candidates& candidates);
 
-/// The set that stands next to the best one; nullptr where no other was fitted.
+/// The set of most evidence behind the best one; nullptr where no other was fitted.
 const WeightedSet* next_standing(const Candidates& candidates, const std::set<std::string>& best);
 
 /// ln odds of the best set over every other one that was fitted, and over the base model.
@@ -59,7 +59,7 @@ double lead(const Candidates& candidates);
 /// Whether that is so large that no further run is worth it: thresholds::excluded_odds.
 bool is_settled(const Candidates& candidates);
 
-/// The same as an answer lists them, with weights that sum to 1.
+/// The competitors as an answer lists them, with weights that sum to 1.
 std::vector<WeightedSet> ambiguity_set(const Candidates& candidates);
 
 }  // namespace soilbin::compare

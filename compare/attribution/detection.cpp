@@ -83,17 +83,16 @@ namespace {
 
 /// Residuals in the order of the runs, of one channel or of a gain, of unit size where only noise is there.
 struct RunSeries {
-  std::string name;
-  std::vector<double> values;
+  std::optional<int> channel{};  ///< none: of a gain
+  std::vector<double> values{};
 };
 
 std::vector<RunSeries> run_series(const FittedModel& model) {
   const Observations& observations = model.data().observations;
   const std::vector<Index> by_run = cells_in_order_of_runs(observations);
   std::vector<RunSeries> all(channel_count + 1);
-  for (int c = 0; c < channel_count; ++c) all[c].name = traction_channels[c].title;
+  for (int c = 0; c < channel_count; ++c) all[c].channel = c;
   RunSeries& gain = all.back();
-  gain.name = "forces";
   double score = 0.0, weight = 0.0;
   for (std::size_t k = 0; k < by_run.size(); ++k) {
     const Cell& cell = observations.cells[by_run[k]];
@@ -144,7 +143,7 @@ SerialTest serial_test(const FittedModel& model, int permutations, std::uint64_t
       if (serial_correlation(r, lags) >= seen) ++reached;
     }
     const double p = (reached + 1.0) / (permutations + 1.0);
-    if (p < least) least = p, test.series = series.name;
+    if (p < least) least = p, test.channel = series.channel;
   }
   if (tested > 0) test.p_value = std::min(1.0, tested * least);
   return test;
@@ -171,7 +170,7 @@ double explained(const MatrixXd& q, const VectorXd& r, double mean) {
   return whole > 0 ? (q.transpose() * centred).squaredNorm() / whole : 0.0;
 }
 
-/// Of each of m p-values the least m p/rank among those that are no smaller.
+/// False-discovery rates: the least m p/rank of m p-values among those no smaller than a p-value.
 void tell_false_discovery_rates(std::vector<Dependence>& table) {
   std::vector<Dependence*> by_p;
   for (Dependence& d : table) by_p.push_back(&d);

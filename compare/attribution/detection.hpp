@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct LackOfFit {
 };
 LackOfFit lack_of_fit(const FittedModel& model);
 
-/// The same against re-runs alone, channel by channel: the scatter of the setpoints' mean residuals over that within
+/// Lack of fit against re-runs alone, channel by channel: the scatter of the setpoints' mean residuals over that within
 /// setpoints (pure error; Draper and Smith, ch. 2), the setpoint farthest off left out, for it may be an outlier. It
 /// needs no estimate of the noise but how it grows with the signal, so it also sees what no smooth function of the
 /// conditions follows and would pass for noise.
@@ -32,8 +33,8 @@ RerunTest rerun_test(const FittedModel& model);
 /// channel, and of a gain that all forces of a run share. An amplifier that warms, a bed that dries, another operator.
 /// It needs no estimate of the noise, which such changes raise.
 struct SerialTest {
-  double p_value = 1.0;  ///< least of the series', times their number; 1 where the order of the runs isn't known
-  std::string series;    ///< the one that reaches it: a channel's title, or "forces"
+  double p_value = 1.0;        ///< least of the series', times their number; 1 where the order isn't known
+  std::optional<int> channel;  ///< whose series reaches it (Channel); none: the gain that all forces share
 };
 /// By the correlations over 1, 2, .. L runs, L a twelfth of them, the nearer the heavier (Bartlett's weights), against
 /// rearrangements of the runs. Deterministic for a seed.

@@ -1,13 +1,10 @@
 #include "compare/attribution/learned_formula.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "compare/fit/factorizations.hpp"
 #include "compare/fit/thresholds.hpp"
-#include "compare/report/number_text.hpp"
 
 namespace soilbin::compare {
 
@@ -150,18 +147,6 @@ std::optional<LearnedFormula> find_formula(const FittedModel& beside, const Lear
     if (count == 2) best.resize(std::min<std::size_t>(best.size(), thresholds::best_pairs));
   }
   return std::nullopt;
-}
-
-std::string formula_text(const LearnedFormula& formula) {
-  std::string text = "g =";
-  for (std::size_t k = 0; k < formula.terms.size(); ++k) {
-    const Estimate& w = formula.weights[k];
-    const bool negative = w.value < 0.0;
-    const std::string term = formula.terms[k].text == "1" ? "" : " " + formula.terms[k].text;
-    text += fmt::format(" {}({}){}", k == 0 ? (negative ? "-" : "") : (negative ? "- " : "+ "),
-                        number(Estimate{std::abs(w.value), w.std_error}), term);
-  }
-  return text;
 }
 
 }  // namespace soilbin::compare

@@ -24,7 +24,4 @@ struct LearnedFormula {
 std::optional<LearnedFormula> find_formula(const FittedModel& beside, const LearnedEffect& learned,
                                            const AttributionOptions& options);
 
-/// "g = (0.110 ± 0.012) slip^2 - (0.031 ± 0.004)".
-std::string formula_text(const LearnedFormula& formula);
-
 }  // namespace soilbin::compare

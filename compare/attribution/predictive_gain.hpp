@@ -40,7 +40,7 @@ struct FoldDensity {
 };
 std::vector<FoldDensity> fold_densities(const FittedModel& model, std::uint64_t seed, const ThreadPool& pool = {});
 
-/// Of models of one data set, with one seed.
+/// The gain between two models of one data set, with one seed.
 PredictiveGain predictive_gain(const std::vector<FoldDensity>& model, const std::vector<FoldDensity>& over);
 
 }  // namespace soilbin::compare

@@ -46,7 +46,6 @@ struct Base {
 Signature signature_of(const Base& base, const Term& term, double amplitude, const VectorXd& change) {
   Signature s;
   s.term = term;
-  s.at_amplitude = amplitude;
   const bekker_wong::EffectParameter& p = term.form->parameters.front();
   s.one_sided = p.lower >= 0.0;
   s.white = base.model.data().whitening(VectorXd(change / amplitude));

@@ -15,7 +15,6 @@ namespace soilbin::compare {
 /// One form's signature and how well the residual follows it.
 struct Signature {
   Term term;
-  double at_amplitude = 0.0;    ///< amplitude of the secant [SI]
   Eigen::VectorXd white;        ///< whitened change of the cells per unit amplitude
   Eigen::VectorXd direction;    ///< unit vector of its part off the nuisance columns (augmented rows)
   double projected_norm = 0.0;  ///< |P d|

@@ -126,11 +126,11 @@ MatrixXd misread(const FittedModel& base, const VectorXd& slope) {
 
 std::vector<UnnamedKind> unnamed_functions(const Dataset& data, const VectorXd& prediction) {
   const Observations& observations = data.observations;
-  UnnamedKind smooth{"a smooth function of the conditions", {}};
+  UnnamedKind smooth{Unnamed::smooth, {}};
   smooth.families.push_back(
       in_every_channel(data, prediction, with_constant(smooth_basis(observations, unnamed_columns(observations)))));
-  UnnamedKind wave{"waves in one of the conditions", {}}, wave_of_one{"waves of one channel", {}};
-  UnnamedKind gain{"a gain of all forces that waves", {}};
+  UnnamedKind wave{Unnamed::wave, {}}, wave_of_one{Unnamed::wave_of_one_channel, {}};
+  UnnamedKind gain{Unnamed::gain_of_forces, {}};
   for (const Covariate& c : covariates(observations)) {
     if (!may_wave(c)) continue;
     const MatrixXd functions = waves(c.values);
@@ -141,8 +141,8 @@ std::vector<UnnamedKind> unnamed_functions(const Dataset& data, const VectorXd& 
     }
     if (c.name == "run" || c.name == "load") gain.families.push_back(common_gain(data, prediction, c.values));
   }
-  UnnamedKind before{"what the run before left behind", {carried_over(data, prediction)}};
-  UnnamedKind bend{"a channel that is not linear", {bent(data, prediction)}};
+  UnnamedKind before{Unnamed::run_before, {carried_over(data, prediction)}};
+  UnnamedKind bend{Unnamed::bent_channel, {bent(data, prediction)}};
   std::vector<UnnamedKind> kinds = {smooth, wave, wave_of_one, gain, before, bend};
   std::erase_if(kinds, [](const UnnamedKind& kind) { return kind.families.empty(); });
   return kinds;
@@ -150,7 +150,7 @@ std::vector<UnnamedKind> unnamed_functions(const Dataset& data, const VectorXd& 
 
 std::vector<UnnamedKind> unnamed_kinds(const FittedModel& base) {
   std::vector<UnnamedKind> kinds = unnamed_functions(base.data(), base.fit().prediction);
-  UnnamedKind misreads{misread_kind, {}};
+  UnnamedKind misreads{Unnamed::misread_condition, {}};
   const double load = base.data().observations.rows.front().load;
   if (const auto slope = slope_over(base, &OperatingCondition::slip, 1e-4))
     misreads.families.push_back(misread(base, *slope));
@@ -171,7 +171,7 @@ UnnamedEvidence unnamed_evidence(const LinearProblem& problem, const std::vector
     of_kinds.push_back(log_mean_exp(gains));
   }
   const auto most_likely = std::ranges::max_element(of_kinds) - of_kinds.begin();
-  return {log_mean_exp(of_kinds), kinds[static_cast<std::size_t>(most_likely)].name};
+  return {log_mean_exp(of_kinds), kinds[static_cast<std::size_t>(most_likely)].kind};
 }
 
 }  // namespace soilbin::compare

@@ -23,7 +23,6 @@ namespace {
 struct FoldResult {
   std::vector<HeldOut> cells;
   std::set<std::string> chosen;
-  int unpredicted = 0;
 };
 
 FoldResult run_fold(const Dataset& whole, const NoiseFloor& noise, const ValidationOptions& options,
@@ -65,9 +64,7 @@ FoldResult run_fold(const Dataset& whole, const NoiseFloor& noise, const Validat
       predicted[index] = held.before;
       of_cell.push_back(index);
       result.cells.push_back(held);
-    } catch (const NoSolution&) {
-      ++result.unpredicted;
-    }
+    } catch (const NoSolution&) {}
   }
   std::vector<bool> kept_rows(all.rows.size());
   for (std::size_t r = 0; r < kept_rows.size(); ++r) kept_rows[r] = keep[all.condition[r]];
@@ -148,7 +145,6 @@ CrossValidation cross_validate(const Dataset& whole, const NoiseFloor& noise, co
     if (!result) continue;
     cv.cells.insert(cv.cells.end(), result->cells.begin(), result->cells.end());
     cv.chosen.push_back(result->chosen);
-    cv.unpredicted += result->unpredicted;
   }
   sum_up(whole.observations, cv);
   return cv;

@@ -28,13 +28,12 @@ struct HeldOutErrors {
 
 /// The whole procedure redone with each fold of conditions left out.
 struct CrossValidation {
-  std::vector<HeldOut> cells;
+  std::vector<HeldOut> cells;                         ///< for which the fold's models have a balance
   std::vector<std::set<std::string>> chosen;          ///< of each fold
   std::array<HeldOutErrors, channel_count> channels;  ///< in the channels' units
   HeldOutErrors overall;                              ///< in sigma
   double gain = 0.0;                                  ///< mean fall of the squared error over conditions [sigma^2]
   double gain_error = 0.0;                            ///< its standard error, over conditions
-  int unpredicted = 0;                                ///< held-out cells for which a fold's model had no balance
 };
 
 /// What is redone in each fold, and how errors are expressed.
@@ -54,10 +53,10 @@ struct ValidationOptions {
 /// conditions. noise: of the cells left out, in whose sd errors are expressed.
 CrossValidation cross_validate(const Dataset& whole, const NoiseFloor& noise, const ValidationOptions& options);
 
-/// What it would be without learned effects. whole: the observations that it is of.
+/// A validation as it would be without learned effects. whole: the observations that it is of.
 CrossValidation without_learned_effects(CrossValidation validation, const Observations& whole);
 
-/// What it would be of the base model alone: nothing changes.
+/// A validation as it would be of the base model alone: nothing changes.
 CrossValidation without_effects(CrossValidation validation, const Observations& whole);
 
 }  // namespace soilbin::compare

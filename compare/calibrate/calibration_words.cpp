@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/calibrate/decision_words.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/result_json.hpp"
@@ -260,6 +259,27 @@ Json runs_json(const VirtualTest& test, const Calibration& calibration) {
 }
 
 }  // namespace
+
+Table beside_table(const VirtualTest& test, const std::vector<PublishedSet>& sets) {
+  Table table{"Published beside ours", {"set"}};
+  for (const Factor& factor : test.factors) table.header.push_back(heading(factor.name, factor.unit));
+  for (const Target& target : test.targets)
+    for (const char* whose : {" published", " ours", " measured"})
+      table.header.push_back(heading(target.name + whose, target.unit));
+  for (const PublishedSet& set : sets) {
+    std::vector<TableCell> row{set.name};
+    for (std::size_t j = 0; j < test.factors.size(); ++j)
+      row.push_back(number(set.values[j] * per_unit(test.factors[j].unit)));
+    for (std::size_t t = 0; t < test.targets.size(); ++t) {
+      const double per = per_unit(test.targets[t].unit);
+      row.push_back(number(set.published[t] * per));
+      row.push_back(set.ours.results.empty() ? set.ours.error : number(set.ours.results[t], per));
+      row.push_back(number(test.targets[t].measured, per));
+    }
+    table.add(std::move(row));
+  }
+  return table;
+}
 
 Json to_json(const VirtualTest& test, const CalibrationOptions& options, const Calibration& calibration) {
   Json factors = Json::array(), targets = Json::array(), candidates = Json::array();

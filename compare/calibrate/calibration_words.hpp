@@ -1,13 +1,14 @@
 // What a calibration found: as sentences, tables, JSON, and as a soil that other commands take.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "compare/calibrate/calibration.hpp"
 #include "compare/calibrate/contact_values.hpp"
-#include "compare/report/page.hpp"
+#include "compare/calibrate/published_sets.hpp"
+#include "compare/report/table.hpp"
 #include "scenario/soil.hpp"
 
 namespace soilbin::compare {
@@ -23,6 +24,9 @@ Table runs_table(const VirtualTest& test, const Calibration& calibration);
 /// Candidates: values, what is predicted of them, chi square, chance.
 Table candidates_table(const VirtualTest& test, const Calibration& calibration);
 
+/// Published sets: values, what was published, ours, what was measured.
+Table beside_table(const VirtualTest& test, const std::vector<PublishedSet>& sets);
+
 /// soilbin-calibration/1, all in SI.
 nlohmann::ordered_json to_json(const VirtualTest& test, const CalibrationOptions& options,
                                const Calibration& calibration);
@@ -31,5 +35,20 @@ nlohmann::ordered_json to_json(const VirtualTest& test, const CalibrationOptions
 /// well the targets determine the value. Factors are named as the contact's numbers.
 Soil calibrated_soil(Soil soil, ContactKind kind, const VirtualTest& test, const CalibrationOptions& options,
                      const Calibration& calibration);
+
+// What the soil bin decides between candidates (decision_words.cpp).
+
+/// "(a)" for the first.
+std::string candidate_name(std::size_t candidate);
+
+/// What the soil bin says, what it can't tell apart, and what the errors don't hold. One string a sentence.
+std::vector<std::string> decision_sentences(const Decision& decision);
+
+/// Headings and a candidate's cells: the error of each channel that was measured, of all, and the verdict.
+std::vector<std::string> decision_columns(const Decision& decision);
+std::vector<std::string> decision_cells(const Decision& decision, std::size_t candidate);
+
+/// All in SI; errors as shares of the load.
+nlohmann::ordered_json to_json(const Decision& decision);
 
 }  // namespace soilbin::compare

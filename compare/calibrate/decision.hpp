@@ -29,7 +29,7 @@ struct Setpoint {
 /// its rows.
 std::vector<Setpoint> setpoints_of(const Campaign& campaign);
 
-/// Those between the bounds of one member of the condition, both included [SI].
+/// Setpoints between the bounds of one member of the condition, both included [SI].
 std::vector<Setpoint> between(const std::vector<Setpoint>& setpoints, double OperatingCondition::*member, double lower,
                               double upper);
 

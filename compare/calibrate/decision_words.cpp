@@ -1,7 +1,6 @@
-#include "compare/calibrate/decision_words.hpp"
-
 #include <fmt/core.h>
 
+#include "compare/calibrate/calibration_words.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/result_json.hpp"

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "compare/calibrate/experiment_store.hpp"
-#include "compare/report/page.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::compare {
@@ -26,8 +25,5 @@ std::vector<PublishedSet> parse_published_sets(const SourceText& source, const V
 /// Runs each set, or takes it from the store. `progress` is told how many are done, before each, and may throw.
 void run_sets(std::vector<PublishedSet>& sets, const VirtualTest& test, std::uint64_t seed, ExperimentStore& store,
               const std::function<void(int done, int total)>& progress = {});
-
-/// A row a set: values, theirs, ours, the difference.
-Table beside_table(const VirtualTest& test, const std::vector<PublishedSet>& sets);
 
 }  // namespace soilbin::compare

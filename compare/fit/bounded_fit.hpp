@@ -14,7 +14,7 @@ namespace soilbin::compare {
 struct Fit {
   Eigen::VectorXd theta;
   Eigen::VectorXd restart;            ///< where the way down ended, before the soil was made firm enough for every
-                                      ///< condition: a start for the next fit that has not its back to the wall
+                                      ///< condition: a start for the next fit, away from the bounds
   Eigen::VectorXd prediction;         ///< of the cells
   Eigen::MatrixXd jacobian;           ///< cells x parameters, unwhitened
   Eigen::VectorXd residual;           ///< augmented

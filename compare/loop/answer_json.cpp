@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "bekker_wong/learned.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/loop/loop.hpp"
-#include "compare/loop/next_run_words.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
@@ -49,7 +48,7 @@ Json effects_json(const std::vector<AcceptedEffect>& effects, const Tire& wheel)
 /// What leaving the accepted effects out does to the soil's values [SI].
 Json soil_json(const LoopAnswer& answer) {
   Json soil = Json::object();
-  for (const SoilShift& s : answer.soil_shifts)
+  for (const SoilShift& s : answer.with_candidates().soil_shifts)
     soil[s.name] = {{"value", finite(s.with.value)},
                     {"sd", finite(s.with.std_error)},
                     {"without", finite(s.without.value)},
@@ -71,7 +70,7 @@ Json error_json(const LoopAnswer& answer) {
                    {"after", finite(e.after)},
                    {"noise_floor", finite(e.noise_floor)},
                    {"kind", "held_out"}};
-    if (!answer.learned.empty()) error[name]["without_learned"] = finite(e.named);
+    if (!answer.learned().empty()) error[name]["without_learned"] = finite(e.named);
   }
   const HeldOutErrors& all = answer.validation.overall;
   error["overall"] = Json::object();
@@ -82,16 +81,16 @@ Json error_json(const LoopAnswer& answer) {
                         {"gain", finite(answer.validation.gain)},
                         {"gain_std_error", finite(answer.validation.gain_error)},
                         {"kind", "held_out"}};
-  if (all.cells > 0 && !answer.learned.empty()) error["overall"]["without_learned"] = finite(all.named);
+  if (all.cells > 0 && !answer.learned().empty()) error["overall"]["without_learned"] = finite(all.named);
   return error;
 }
 
 /// A condition by the names and units of a campaign's columns, in the numbers that the text says: those of a rig.
 Json condition_json(const LoopAnswer& answer) {
   Json at = Json::object();
-  for (const std::string& name : answer.next->quantities) {
+  for (const std::string& name : answer.next()->quantities) {
     const ConditionView& view = condition_view(name);
-    const double value = rig_setting_of(answer, answer.next->at, name) * per_unit(std::string(view.column_unit));
+    const double value = rig_setting_of(answer, answer.next()->at, name) * per_unit(std::string(view.column_unit));
     if (std::isfinite(value))
       at[view.column] = view.whole ? Json(std::lround(value)) : Json(std::stod(fmt::format("{:.6g}", value)));
   }
@@ -99,14 +98,14 @@ Json condition_json(const LoopAnswer& answer) {
 }
 
 Json next_json(const LoopAnswer& answer) {
-  if (!answer.next) return nullptr;
+  if (!answer.next()) return nullptr;
   Json separates = Json::array();
-  for (const auto& ids : answer.next->separates)
+  for (const auto& ids : answer.next()->separates)
     separates.push_back(ids.empty() ? "base" : fmt::format("{}", fmt::join(ids, "+")));
   return {{"condition", condition_json(answer)},
           {"separates", separates},
-          {"runs", answer.next->runs},
-          {"beyond", answer.next->beyond}};
+          {"runs", answer.next()->runs},
+          {"beyond", answer.next()->beyond}};
 }
 
 /// Sets of effects with their shares, and what their best forms presume of the wheel.
@@ -122,48 +121,50 @@ Json sets_json(const Attribution& found, const std::vector<WeightedSet>& sets, c
 
 /// What stands out where the base model may be off by itself, and whether that decides what else is told.
 Json model_discrepancy_json(const LoopAnswer& answer) {
-  const Attribution* found = answer.with_model_discrepancy();
-  if (!found) return nullptr;
+  const SecondAttribution* second = answer.second();
+  if (!second) return nullptr;
+  const Attribution& found = second->decides ? answer.found() : second->alternative;
   Json effects = Json::array();
-  if (found->candidates.best) effects = found->best().ids;
+  if (found.candidates.best) effects = found.best().ids;
   return {{"effects", effects},
-          {"p_value", finite(found->signatures.p_value)},
-          {"size", finite(answer.second->size)},
-          {"decides", answer.second->decides}};
+          {"p_value", finite(found.signatures.p_value)},
+          {"size", finite(second->size)},
+          {"decides", second->decides}};
 }
 
 /// What the data can't tell apart: the sets of the reading that decides, with their shares, then those that only the
 /// other one leaves, without.
 Json ambiguity_json(const LoopAnswer& answer) {
-  if (answer.ambiguity_set.empty()) return Json::array();
-  Json all = sets_json(answer.found(), answer.ambiguity_set, answer.wheel);
-  if (answer.alternative_sets.empty()) return all;
-  for (Json& set : sets_json(answer.second->alternative, answer.alternative_sets, answer.wheel)) {
-    set["of_other_reading"] = true;
-    all.push_back(std::move(set));
-  }
+  if (answer.ambiguity_set().empty()) return Json::array();
+  Json all = sets_json(answer.found(), answer.ambiguity_set(), answer.wheel);
+  if (const SecondAttribution* second = answer.second())
+    for (Json& set : sets_json(second->alternative, second->sets, answer.wheel)) {
+      set["of_other_reading"] = true;
+      all.push_back(std::move(set));
+    }
   return all;
 }
 
 /// A formula that does as well as the learned effect.
-Json formula_json(const LoopAnswer& answer) {
-  if (!answer.formula) return nullptr;
+Json formula_json(const std::optional<LearnedFormula>& formula) {
+  if (!formula) return nullptr;
   Json terms = Json::array();
-  for (std::size_t k = 0; k < answer.formula->terms.size(); ++k)
-    terms.push_back({{"term", answer.formula->terms[k].text},
-                     {"weight", finite(answer.formula->weights[k].value)},
-                     {"sd", finite(answer.formula->weights[k].std_error)}});
-  return {{"joint", answer.formula->joint},
-          {"words", formula_text(*answer.formula)},
+  for (std::size_t k = 0; k < formula->terms.size(); ++k)
+    terms.push_back({{"term", formula->terms[k].text},
+                     {"weight", finite(formula->weights[k].value)},
+                     {"sd", finite(formula->weights[k].std_error)}});
+  return {{"joint", formula->joint},
+          {"words", formula_text(*formula)},
           {"terms", terms},
-          {"gain_over_learned", finite(answer.formula->over_learned.mean)},
-          {"gain_std_error", finite(answer.formula->over_learned.std_error)}};
+          {"gain_over_learned", finite(formula->over_learned.mean)},
+          {"gain_std_error", finite(formula->over_learned.std_error)}};
 }
 
 /// A learned effect: where it joins the model, of which conditions, the ranges where it holds [SI].
 Json learned_json(const LoopAnswer& answer, std::size_t k) {
-  const LearnedEffect& learned = answer.learned[k];
-  const EffectChoice& choice = answer.learned_choice(k);
+  const LearnedEffect& learned = answer.learned()[k];
+  const std::vector<AcceptedEffect>& proxies = answer.proxy_effects();  // learned ones are the last
+  const EffectChoice& choice = proxies[proxies.size() - answer.learned().size() + k].choice;
   const bekker_wong::EffectForm& form = bekker_wong::find_form(choice);
   Json valid = Json::object();
   for (const bekker_wong::LearnedVariable& variable : bekker_wong::learned_function(form).variables) {
@@ -180,16 +181,16 @@ Json learned_json(const LoopAnswer& answer, std::size_t k) {
 
 /// The first one, with its formula; null where nothing is learned.
 Json first_learned_json(const LoopAnswer& answer) {
-  if (answer.learned.empty()) return nullptr;
+  if (answer.learned().empty()) return nullptr;
   Json first = learned_json(answer, 0);
-  first["formula"] = formula_json(answer);
+  first["formula"] = formula_json(answer.unknown()->formula);
   return first;
 }
 
-/// Those beside it, in the order in which they were learned.
+/// Learned effects after the first, in the order in which they were learned.
 Json more_learned_json(const LoopAnswer& answer) {
   Json more = Json::array();
-  for (std::size_t k = 1; k < answer.learned.size(); ++k) more.push_back(learned_json(answer, k));
+  for (std::size_t k = 1; k < answer.learned().size(); ++k) more.push_back(learned_json(answer, k));
   return more;
 }
 
@@ -231,9 +232,9 @@ Json with_outliers_json(const LoopAnswer& answer) {
 Json to_json(const LoopAnswer& answer) {
   return {{"format", "soilbin-loop/1"},
           {"campaign", answer.campaign},
-          {"verdict", word(answer.verdict)},
-          {"reason", answer.reason},
-          {"effects", effects_json(answer.effects, answer.wheel)},
+          {"verdict", word(answer.verdict())},
+          {"reason", reason_words(answer)},
+          {"effects", effects_json(answer.effects(), answer.wheel)},
           {"ambiguity_set", ambiguity_json(answer)},
           {"not_testable", answer.not_testable},
           {"error", error_json(answer)},
@@ -242,7 +243,7 @@ Json to_json(const LoopAnswer& answer) {
           {"outliers", answer.outliers()},
           {"set_aside", set_aside_json(answer)},
           {"with_outliers", with_outliers_json(answer)},
-          {"stand_in", effects_json(answer.stand_in, answer.wheel)},
+          {"stand_in", effects_json(answer.proxy_effects(), answer.wheel)},
           {"worse", worse_json(answer)},
           {"learned", first_learned_json(answer)},
           {"learned_more", more_learned_json(answer)},
@@ -251,12 +252,12 @@ Json to_json(const LoopAnswer& answer) {
 }
 
 Json details_json(const LoopAnswer& answer) {
-  if (!answer.judgement)
+  if (!answer.judgement())
     return {{"p_value", 1.0}, {"values", 0},         {"chi2_base", 0.0},         {"parameters_base", 0},
             {"sets", {}},     {"unnamed_gain", 0.0}, {"error_smooth_term", 0.0}, {"folds", {}}};
   const Attribution& found = answer.found();
   const Candidates& all = found.candidates;
-  const ResidualTests &before = answer.judgement->before, after = answer.choice().after;
+  const ResidualTests &before = answer.judgement()->before, after = answer.choice().after;
   Json sets = Json::array();
   for (const WeightedSet& w : all.sets) {
     const CandidateModel& candidate = all.models[w.best_candidate];
@@ -265,10 +266,10 @@ Json details_json(const LoopAnswer& answer) {
     auto form = in_order.begin();
     for (const std::string& effect : candidate.ids) forms.push_back(effect + "/" + *form++);
     const auto listed =
-        std::ranges::find_if(answer.ambiguity_set, [&](const WeightedSet& one) { return one.ids == w.ids; });
+        std::ranges::find_if(answer.ambiguity_set(), [&](const WeightedSet& one) { return one.ids == w.ids; });
     sets.push_back({{"effects", w.ids},
                     {"forms", forms},
-                    {"weight", finite(listed == answer.ambiguity_set.end() ? 0.0 : listed->weight)},
+                    {"weight", finite(listed == answer.ambiguity_set().end() ? 0.0 : listed->weight)},
                     {"log_evidence", finite(candidate.log_evidence)},
                     {"set_log_evidence", finite(w.log_evidence)},
                     {"share", finite(w.weight)},

@@ -7,7 +7,6 @@
 #include "bekker_wong/effects/titles.hpp"
 #include "bekker_wong/learned.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/loop/next_run_words.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/soil_parameters.hpp"
@@ -60,14 +59,15 @@ Table next_run_table(const LoopAnswer& answer) {
   if (const std::vector<OperatingCondition> series = shape_series(answer); !series.empty())
     return series_table(answer, series);
   if (!proposes_next(answer)) return {};
-  const NextTest& next = *answer.next;
+  const NextRun& next = *answer.next();
+  const std::vector<std::string> unknown = beyond_what_is_known(next);
   MarkedTable table{"The next run, as a row of the campaign", {}};
   table.add({});
   for (const std::string& name : next.quantities) {
     const auto [value, unit] = next_setting(answer, next.at, name);
     if (value.empty()) continue;
     table.header.push_back(heading(std::string(condition_view(name).title), unit.empty() ? "-" : unit));
-    const bool beyond = std::ranges::find(next.beyond, name) != next.beyond.end();
+    const bool beyond = std::ranges::find(unknown, name) != unknown.end();
     table.rows[0].push_back({value, beyond ? "beyond what was run" : ""});
   }
   table.header.insert(table.header.end(), {"runs", "decides between"});
@@ -78,7 +78,7 @@ Table next_run_table(const LoopAnswer& answer) {
   return table;
 }
 
-/// Of a model that takes no effects: no "after".
+/// Errors of a model without effects: no column "after".
 Table base_error_table(const LoopAnswer& answer) {
   Table table{
       "Cross-validated RMS error, the soil refitted; noise: scatter about any smooth function of the conditions",
@@ -93,7 +93,7 @@ Table base_error_table(const LoopAnswer& answer) {
 }
 
 Table error_table(const LoopAnswer& answer) {
-  if (!takes_effects(answer)) return base_error_table(answer);
+  if (!answer.uses_effects()) return base_error_table(answer);
   MarkedTable table{
       "Cross-validated RMS error; before: soil refitted, no effect added; noise: scatter about any smooth function of "
       "the conditions",
@@ -120,10 +120,10 @@ Table error_table(const LoopAnswer& answer) {
 }
 
 Table candidates_table(const LoopAnswer& answer) {
-  const std::string premise = !answer.second           ? ""
-                              : answer.second->decides ? ", with a base model that may itself be wrong"
-                                                       : ", the base model taken as exact";
-  const std::string shares = answer.verdict == Verdict::unknown_effect
+  const std::string premise = !answer.second()           ? ""
+                              : answer.second()->decides ? ", with a base model that may itself be wrong"
+                                                         : ", the base model taken as exact";
+  const std::string shares = answer.verdict() == Verdict::unknown_effect
                                  ? "; none explains the data, shares are among the nearest"
                                  : "; shares are of those not ruled out";
   MarkedTable table{"Candidates, each fitted in full" + premise + shares,
@@ -136,7 +136,7 @@ Table candidates_table(const LoopAnswer& answer) {
     const CandidateModel& candidate = answer.found().candidates.models[w.best_candidate];
     table.add({{named_effects(w.ids), joined(w.ids) == named_effects(w.ids) ? "" : joined(w.ids)},
                fmt::format("{}", fmt::join(forms_in_order(candidate), " + ")),
-               i < answer.ambiguity_set.size() ? share_words(w.weight) : "-",
+               i < answer.ambiguity_set().size() ? share_words(w.weight) : "-",
                i == 0 ? TableCell("-") : odds_to_the_first(sets.front()->log_evidence - w.log_evidence),
                number(candidate.fit().chi2),
                values});
@@ -152,10 +152,10 @@ std::string candidates_columns_in_words() {
 }
 
 Table parameters_table(const LoopAnswer& answer) {
-  MarkedTable table{answer.effects.empty() ? "Empirical correction: fitted parameters" : "Effects: fitted parameters",
+  MarkedTable table{answer.effects().empty() ? "Empirical correction: fitted parameters" : "Effects: fitted parameters",
                     {"effect", "parameter", "value", "95 %", "allowed", "determined?"},
                     {true, true, false, false, false, true}};
-  for (const AcceptedEffect& effect : answer.taken()) {
+  for (const AcceptedEffect& effect : answer.effects_in_model()) {
     const bekker_wong::EffectForm& form = bekker_wong::find_form(effect.choice);
     if (form.id == bekker_wong::learned_id) {  // its weights mean nothing one by one
       table.add({{std::string(bekker_wong::effect_title(form.id).name), form.id},
@@ -189,7 +189,7 @@ Table soil_table(const LoopAnswer& answer) {
                     {"value", "with", "without", "bias", "unit", "determined?"},
                     {true, false, false, false, true, true}};
   constexpr double hardly_less = 0.9;  // of the declared standard deviation: the data tell next to nothing
-  for (const SoilShift& s : answer.soil_shifts) {
+  for (const SoilShift& s : answer.with_candidates().soil_shifts) {
     const DeclaredValueWords p = words_of_declared(s.name);
     const bool held = s.held;
     const bool as_declared = s.declared_sd > 0 && s.with.std_error > hardly_less * s.declared_sd;

@@ -11,7 +11,6 @@
 
 #include "bekker_wong/effects/titles.hpp"
 #include "bekker_wong/learned.hpp"
-#include "compare/loop/next_run_words.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
@@ -43,10 +42,10 @@ std::string learned_ranges(const std::vector<EffectChoice>& learned) {
 
 /// "slip sinkage, and, learned from these runs (for slip 5 to 70 %), changes of the torque by slip and the pull by
 /// slip".
-std::string stand_in_words(const LoopAnswer& answer) {
+std::string proxy_words(const LoopAnswer& answer) {
   std::vector<std::string> named, changes;
   std::vector<EffectChoice> learned;
-  for (const AcceptedEffect& effect : answer.stand_in)
+  for (const AcceptedEffect& effect : answer.proxy_effects())
     if (effect.choice.id == bekker_wong::learned_id) {
       learned.push_back(effect.choice);
       changes.push_back("the " + spaced(effect.choice.form));
@@ -102,7 +101,7 @@ std::string why_taken(const std::vector<WeightedSet>& sets) {
 /// (docs/lab/loop-ceiling.md, "Accuracy against the share answered").
 std::string next_candidate(const LoopAnswer& answer) {
   const std::vector<const WeightedSet*> sets = sets_shown(answer);
-  if (answer.ambiguity_set.size() != 1 || sets.size() < 2) return "";
+  if (answer.ambiguity_set().size() != 1 || sets.size() < 2) return "";
   const double behind = sets[0]->log_evidence - sets[1]->log_evidence;
   if (!(behind > 0)) return "";
   constexpr double clear_share = 0.9;
@@ -116,7 +115,7 @@ std::string next_candidate(const LoopAnswer& answer) {
 /// What an accepted effect takes the wheel to have and the campaign does not declare: without it the verdict misleads.
 std::string presumed_of_the_wheel(const LoopAnswer& answer) {
   std::string text;
-  for (const AcceptedEffect& effect : answer.effects) {
+  for (const AcceptedEffect& effect : answer.effects()) {
     std::string values;
     for (const bekker_wong::Presumed& value :
          bekker_wong::presumed(bekker_wong::find_form(effect.choice), answer.wheel))
@@ -131,16 +130,43 @@ std::string presumed_of_the_wheel(const LoopAnswer& answer) {
 
 /// How often noise alone would look like this, or why nothing is known by that; "" where nothing was judged.
 std::string odds_clause(const LoopAnswer& answer) {
-  if (!answer.judgement || answer.verdict == Verdict::not_enough_data) return "";
-  if (answer.verdict == Verdict::unknown_effect) return answer.judgement->reason;
+  if (!answer.judgement() || answer.verdict() == Verdict::not_enough_data) return "";
+  if (answer.verdict() == Verdict::unknown_effect) return reason_words(*answer.judgement());
   const ResidualSignatures& signatures = answer.found().signatures;
   return noise_verdict(signatures);
+}
+
+/// The verdict as a sentence without its end.
+std::string verdict_clause(const LoopAnswer& answer) {
+  switch (answer.verdict()) {
+    case Verdict::effect_found: {
+      const std::set<std::string>& ids = answer.found().best().ids;
+      const std::string names = named_effects(ids);
+      if (answer.ambiguity_set().size() > 1) {
+        const std::string what = ids.size() == 1 ? "an effect" : fmt::format("{} effects", ids.size());
+        const std::string share = share_words(answer.ambiguity_set().front().weight);
+        if (!why_taken(answer.ambiguity_set()).empty())
+          return fmt::format("The model lacks {}: {}, by conditions left out ({} by the fit)", what, names, share);
+        return fmt::format("The model lacks {}, most likely {} ({})", what, names, share);
+      }
+      return ids.size() == 1 ? fmt::format("The model lacks {}: {}", names, effect_title(*ids.begin()).meaning)
+                             : fmt::format("The model lacks {}", names);
+    }
+    case Verdict::nothing_missing:
+      return "No missing effect is detected";
+    case Verdict::unknown_effect:
+      return fmt::format("Something is missing that none of the {} known effects explains",
+                         bekker_wong::effect_ids().size());
+    case Verdict::not_enough_data:
+      return "These data cannot decide: " + reason_words(answer);
+  }
+  return "";
 }
 
 /// Effects whose amplitude ends at the bound of its form; "" where there is none.
 std::string sizes_at_a_bound(const LoopAnswer& answer) {
   std::vector<std::string> names;
-  for (const AcceptedEffect& effect : answer.effects)
+  for (const AcceptedEffect& effect : answer.effects())
     if (!effect.at_bound.empty() && effect.at_bound.front()) names.push_back(named_effects({effect.choice.id}));
   if (names.empty()) return "";
   return fmt::format(" {} reaches the bound of its variant: check the columns' units and the declared wheel.",
@@ -149,23 +175,15 @@ std::string sizes_at_a_bound(const LoopAnswer& answer) {
 
 /// What else to know of the verdict; "" where there is nothing.
 std::string beside_the_verdict(const LoopAnswer& answer) {
-  if (!answer.judgement) return "";
-  const std::vector<WeightedSet>& sets = answer.ambiguity_set;
-  switch (answer.verdict) {
-    case Verdict::effect_found:
-      return (sets.size() > 1 ? "Other candidates: " + sets_with_shares(sets, 1, least_share) + "." + why_taken(sets)
-                              : next_candidate(answer)) +
-             sizes_at_a_bound(answer) + presumed_of_the_wheel(answer);
-    case Verdict::unknown_effect:
-      return sets.size() > 1 ? "Nearest known effects: " + sets_with_shares(sets, 0, worth_listing) + "." +
-                                   (takes_effects(answer) ? why_taken(sets) : "")
-                             : "";
-    case Verdict::nothing_missing:
-      return capital(answer.judgement->reason) + ".";
-    case Verdict::not_enough_data:
-      return "";
-  }
-  return "";
+  const std::vector<WeightedSet>& sets = answer.ambiguity_set();
+  if (answer.verdict() == Verdict::nothing_missing) return capital(reason_words(*answer.judgement())) + ".";
+  if (answer.verdict() == Verdict::effect_found)
+    return (sets.size() > 1 ? "Other candidates: " + sets_with_shares(sets, 1, least_share) + "." + why_taken(sets)
+                            : next_candidate(answer)) +
+           sizes_at_a_bound(answer) + presumed_of_the_wheel(answer);
+  if (sets.size() < 2) return "";
+  return "Nearest known effects: " + sets_with_shares(sets, 0, worth_listing) + "." +
+         (answer.uses_effects() ? why_taken(sets) : "");
 }
 
 // What it does to the error.
@@ -205,7 +223,7 @@ std::string with_the(const std::vector<std::string>& channels) {
 std::string error_sentence(const LoopAnswer& answer) {
   const CrossValidation& validation = answer.validation;
   std::vector<std::string> parts;
-  if (!takes_effects(answer)) {
+  if (!answer.uses_effects()) {
     for (std::size_t c = 0; c < channel_views.size(); ++c)
       if (const HeldOutErrors& e = validation.channels[c]; e.cells > 0)
         parts.push_back(fmt::format("{0} {1} {3} (noise {2} {3})", channel_views[c].title,
@@ -246,18 +264,18 @@ std::string effect_sentence(const AcceptedEffect& effect) {
 
 /// What the attribution says that does not decide.
 std::string note_on_the_other_attribution(const LoopAnswer& answer) {
-  const Attribution& note = answer.second->alternative;
+  const Attribution& note = answer.second()->alternative;
   std::string names = "no known effect is significant";
   std::vector<std::string> others;
   if (note.candidates.best) {
     const std::set<std::string>& best = note.best().ids;
     names = fmt::format("{} is strongest (p = {:.2g})", named_effects(best), note.signatures.p_value);
-    for (const WeightedSet& w : answer.alternative_sets)
+    for (const WeightedSet& w : answer.second()->sets)
       if (w.ids != best) others.push_back(joined(w.ids));
   }
   if (!others.empty()) names += fmt::format("; competing: {}", fmt::join(others, ", "));
-  const char* other = answer.second->decides ? "the base model taken as exact"
-                                             : "the base model wrong by a smooth function of load and slip";
+  const char* other = answer.second()->decides ? "the base model taken as exact"
+                                               : "the base model wrong by a smooth function of load and slip";
   return fmt::format("Second analysis, with {}{}: {}.", other,
                      note.candidates.best ? " (explains the data less well)" : "", names);
 }
@@ -265,13 +283,14 @@ std::string note_on_the_other_attribution(const LoopAnswer& answer) {
 /// The forms that the answer names: of the effects in the model, and of the sets that compete.
 std::vector<EffectChoice> forms_named(const LoopAnswer& answer) {
   std::vector<EffectChoice> forms;
-  for (const AcceptedEffect& effect : answer.taken()) forms.push_back(effect.choice);
+  for (const AcceptedEffect& effect : answer.effects_in_model()) forms.push_back(effect.choice);
   for (const WeightedSet* w : sets_shown(answer))
     for (const Term& term : answer.found().candidates.models[w->best_candidate].terms())
       forms.push_back({term.form->id, term.form->form, {}});
-  for (const WeightedSet& w : answer.alternative_sets)
-    for (const Term& term : answer.second->alternative.candidates.models[w.best_candidate].terms())
-      forms.push_back({term.form->id, term.form->form, {}});
+  if (const SecondAttribution* second = answer.second())
+    for (const WeightedSet& w : second->sets)
+      for (const Term& term : second->alternative.candidates.models[w.best_candidate].terms())
+        forms.push_back({term.form->id, term.form->form, {}});
   return forms;
 }
 
@@ -338,7 +357,7 @@ std::string outlier_sentence(const LoopAnswer& answer) {
   if (!answer.with_outliers) return said;
   const WithOutliers& kept = *answer.with_outliers;
   said += fmt::format(" With {} kept ", one ? "it" : "them");
-  if (kept.verdict == answer.verdict && kept.effects == ids_of(answer.effects))
+  if (kept.verdict == answer.verdict() && kept.effects == ids_of(answer.effects()))
     return said + "the verdict is the same.";
   said += fmt::format("the verdict would be {}", word(kept.verdict));
   return said + (kept.effects.empty() ? "." : ": " + joined(kept.effects) + ".");
@@ -346,12 +365,10 @@ std::string outlier_sentence(const LoopAnswer& answer) {
 
 }  // namespace
 
-bool takes_effects(const LoopAnswer& answer) { return !answer.taken().empty(); }
-
 std::vector<const WeightedSet*> sets_shown(const LoopAnswer& answer) {
   constexpr std::size_t most = 8;
   std::vector<const WeightedSet*> sets;
-  for (const WeightedSet& w : answer.ambiguity_set) sets.push_back(&w);
+  for (const WeightedSet& w : answer.ambiguity_set()) sets.push_back(&w);
   const auto listed = [&](const WeightedSet& w) {
     return std::ranges::any_of(sets, [&](const WeightedSet* one) { return one->ids == w.ids; });
   };
@@ -361,57 +378,33 @@ std::vector<const WeightedSet*> sets_shown(const LoopAnswer& answer) {
   return sets;
 }
 
-std::string verdict_sentence(const LoopAnswer& answer) {
-  switch (answer.verdict) {
-    case Verdict::effect_found: {
-      const std::set<std::string>& ids = answer.found().best().ids;
-      const std::string names = named_effects(ids);
-      if (answer.ambiguity_set.size() > 1) {
-        const std::string what = ids.size() == 1 ? "an effect" : fmt::format("{} effects", ids.size());
-        const std::string share = share_words(answer.ambiguity_set.front().weight);
-        if (!why_taken(answer.ambiguity_set).empty())
-          return fmt::format("The model lacks {}: {}, by conditions left out ({} by the fit).", what, names, share);
-        return fmt::format("The model lacks {}, most likely {} ({}).", what, names, share);
-      }
-      return ids.size() == 1 ? fmt::format("The model lacks {}: {}.", names, effect_title(*ids.begin()).meaning)
-                             : fmt::format("The model lacks {}.", names);
-    }
-    case Verdict::nothing_missing:
-      return "No missing effect is detected.";
-    case Verdict::unknown_effect:
-      return fmt::format("Something is missing that none of the {} known effects explains.",
-                         bekker_wong::effect_ids().size());
-    case Verdict::not_enough_data:
-      return fmt::format("These data cannot decide: {}.", answer.reason);
-  }
-  return "";
-}
+std::string verdict_sentence(const LoopAnswer& answer) { return verdict_clause(answer) + "."; }
 
-std::string stand_in_sentence(const LoopAnswer& answer) {
-  if (answer.stand_in.empty()) return "";
-  return fmt::format("Empirical correction: {}. Better predictions, no physical cause.{}", stand_in_words(answer),
-                     answer.formula ? formula_sentence(*answer.formula) : "");
+std::string proxy_sentence(const LoopAnswer& answer) {
+  if (answer.proxy_effects().empty()) return "";
+  const std::optional<LearnedFormula>& formula = answer.unknown()->formula;
+  return fmt::format("Empirical correction: {}. Better predictions, no physical cause.{}", proxy_words(answer),
+                     formula ? formula_sentence(*formula) : "");
 }
 
 std::vector<BackedSentence> headline(const LoopAnswer& answer, const std::vector<std::string>& column_doubts) {
-  std::string verdict = verdict_sentence(answer);
-  if (const std::string odds = odds_clause(answer); !odds.empty()) {
-    verdict.pop_back();
-    verdict += fmt::format("{} {}.", answer.verdict == Verdict::unknown_effect ? ":" : ";", odds);
-  }
+  const std::string odds = odds_clause(answer);
+  const char* joint = odds.empty() ? "" : answer.verdict() == Verdict::unknown_effect ? ": " : "; ";
   std::vector<BackedSentence> parts;
   if (!column_doubts.empty())
     parts.push_back({.about = "Check first",
                      .text = fmt::format("The data look wrong, and the loop may have taken that for an effect. Correct "
                                          "them and run the loop again: {}.",
                                          fmt::join(column_doubts, "; "))});
-  parts.push_back({.about = "What is missing", .text = std::move(verdict), .detail = beside_the_verdict(answer)});
+  parts.push_back({.about = "What is missing",
+                   .text = verdict_clause(answer) + joint + odds + ".",
+                   .detail = beside_the_verdict(answer)});
   if (answer.validation.overall.cells > 0)
-    parts.push_back({.about = !takes_effects(answer)    ? "Error"
-                              : answer.stand_in.empty() ? "Error with the effect"
-                                                        : "Error with the empirical correction",
+    parts.push_back({.about = !answer.uses_effects()           ? "Error"
+                              : answer.proxy_effects().empty() ? "Error with the effect"
+                                                               : "Error with the empirical correction",
                      .text = error_sentence(answer),
-                     .detail = stand_in_sentence(answer)});
+                     .detail = proxy_sentence(answer)});
   if (const std::vector<std::string> next = what_next(answer); !next.empty())
     parts.push_back({.about = "What to measure next",
                      .text = next.front(),
@@ -421,19 +414,20 @@ std::vector<BackedSentence> headline(const LoopAnswer& answer, const std::vector
 
 std::vector<std::string> notes(const LoopAnswer& answer) {
   std::vector<std::string> sentences;
-  if (answer.second) sentences.push_back(note_on_the_other_attribution(answer));
+  if (answer.second()) sentences.push_back(note_on_the_other_attribution(answer));
   for (std::string& sentence : bekker_wong::presumptions(forms_named(answer), answer.wheel))
     sentences.push_back(std::move(sentence));
-  if (answer.verdict != Verdict::not_enough_data && answer.found().base.data().noise.rerun_freedom == 0)
+  if (answer.verdict() != Verdict::not_enough_data && answer.found().base.data().noise.rerun_freedom == 0)
     sentences.push_back("No two rows share a setpoint: the noise was estimated together with the fit.");
-  if (const int near = answer.judgement ? answer.found().base.data().observations.conditions_in_blocks() : 0; near > 0)
+  if (const int near = answer.judgement() ? answer.found().base.data().observations.conditions_in_blocks() : 0;
+      near > 0)
     sentences.push_back(fmt::format(
         "{} conditions without a label may be re-runs of another one and are left out together. A label (setpoint) "
         "says which are re-runs, and gives a better estimate of the noise.",
         near));
   if (std::string noise = note_on_noise(answer); !noise.empty()) sentences.push_back(std::move(noise));
   if (answer.outliers() > 0) sentences.push_back(outlier_sentence(answer));
-  if (!answer.judgement) return sentences;
+  if (!answer.judgement()) return sentences;
   if (std::string soil = note_on_declared_soil(answer); !soil.empty()) sentences.push_back(std::move(soil));
   if (const auto& impossible = answer.found().base.data().campaign->impossible; !impossible.empty())
     sentences.push_back(fmt::format("Not tested, since these runs exclude them: {}.", named_effects(impossible)));
@@ -448,8 +442,8 @@ std::vector<std::string> explanation(const LoopAnswer& answer) {
   std::vector<std::string> sentences;
   if (const std::string odds = odds_clause(answer); !odds.empty()) sentences.push_back(capital(odds) + ".");
   if (std::string more = beside_the_verdict(answer); !more.empty()) sentences.push_back(std::move(more));
-  if (std::string stand_in = stand_in_sentence(answer); !stand_in.empty()) sentences.push_back(std::move(stand_in));
-  for (const AcceptedEffect& effect : answer.taken()) sentences.push_back(effect_sentence(effect));
+  if (std::string proxies = proxy_sentence(answer); !proxies.empty()) sentences.push_back(std::move(proxies));
+  for (const AcceptedEffect& effect : answer.effects_in_model()) sentences.push_back(effect_sentence(effect));
   if (answer.validation.overall.cells > 0) sentences.push_back(error_sentence(answer));
   for (std::string& sentence : what_next(answer)) sentences.push_back(std::move(sentence));
   for (std::string& sentence : notes(answer)) sentences.push_back(std::move(sentence));
@@ -468,7 +462,7 @@ bool rises(const HeldOutErrors& error) { return error.after > third_digit * erro
 
 std::vector<int> worse_channels(const LoopAnswer& answer) {
   std::vector<int> worse;
-  if (!takes_effects(answer)) return worse;
+  if (!answer.uses_effects()) return worse;
   for (int c = 0; c < channel_count; ++c)
     if (rises(answer.validation.channels[c])) worse.push_back(c);
   return worse;
@@ -484,10 +478,12 @@ std::string held_out_words(const CrossValidation& validation) {
   return text;
 }
 
-std::string held_out_clause(const CrossValidation& validation, bool accepted, bool stands_in) {
-  if (validation.overall.cells == 0) return "";
-  if (accepted) return "; " + held_out_words(validation);
-  return stands_in ? "; with the model that is saved, " + held_out_words(validation) : "";
+std::string reason_words(const LoopAnswer& answer) {
+  const Judgement* judgement = answer.judgement();
+  std::string words = judgement ? reason_words(*judgement) : reason_words(std::get<TooFewValues>(answer.judged));
+  if (answer.uses_effects() && answer.validation.overall.cells > 0)
+    words += (answer.effects().empty() ? "; with the model that is saved, " : "; ") + held_out_words(answer.validation);
+  return words;
 }
 
 }  // namespace soilbin::compare

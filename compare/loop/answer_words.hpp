@@ -1,30 +1,48 @@
-// Stage 8 of the loop: its answer in plain words, as tables and as a page. Terminal, page, Python and the comparison
-// say the same sentences in the same order.
+// Stage 8 of the loop: its answer in plain words, as JSON, tables, a page and a case. Terminal, page, Python and the
+// comparison say the same sentences in the same order.
 //
 //   for (const BackedSentence& said : headline(answer, {})) fmt::print("{}. {}\n", said.about, said.text);
 //   fmt::print("{}", as_text(error_table(answer)));
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "compare/attribution/evidence_words.hpp"
 #include "compare/loop/loop.hpp"
 #include "compare/report/page.hpp"
+#include "scenario/case.hpp"
 
 namespace soilbin::compare {
 
-/// Whether the saved model takes any effects, accepted ones or stand-ins.
-bool takes_effects(const LoopAnswer& answer);
+// Answers for programs (answer_json.cpp, saved_model.cpp).
+
+/// The answer as JSON, soilbin-loop/1.
+nlohmann::ordered_json to_json(const LoopAnswer& answer);
+
+/// What stands behind it: p-values, chi2, evidence, every set of effects that competed, the choice of each fold.
+nlohmann::ordered_json details_json(const LoopAnswer& answer);
+
+/// The campaign's wheel on the refitted soil with the accepted effects, at each of its conditions: what estimate, run
+/// and predict --model take.
+Case resolved_model(const Campaign& campaign, const LoopAnswer& answer);
+
+/// The source that such a case tells: "fitted to campaign cmu-smooth".
+std::string source_of_fit(const std::string& campaign);
+
+// Sentences.
+
+/// What the verdict rests on, and what the effects of the saved model do to the error: one plain sentence.
+std::string reason_words(const LoopAnswer& answer);
 
 /// The verdict as one sentence.
 std::string verdict_sentence(const LoopAnswer& answer);
 
 /// At an unknown effect: what predicts in its place; "" where nothing does.
-std::string stand_in_sentence(const LoopAnswer& answer);
+std::string proxy_sentence(const LoopAnswer& answer);
 
-/// What a page opens with: what is missing and how sure that is; what it, or a stand-in, does to the error, gain and
+/// What a page opens with: what is missing and how sure that is; what it, or its proxies, do to the error, gain and
 /// loss alike; what to measure next. A sentence each, with details in smaller print. The last is absent where no
 /// question is open. Before all of it stands what takes a column of the data for mistaken, where anything does
 /// (doubts_before_fit): then the verdict may be of that column.
@@ -48,15 +66,78 @@ std::vector<int> worse_channels(const LoopAnswer& answer);
 /// drawbar pull (5.95 to 6.30 N)".
 std::string held_out_words(const CrossValidation& validation);
 
-/// The same as the end of a reason, beside effects that are accepted or that stand in; empty where there are none, or
-/// nothing was held out.
-std::string held_out_clause(const CrossValidation& validation, bool accepted, bool stands_in);
-
 /// The forms of a candidate's effects, in the order of its ids.
 std::vector<std::string> forms_in_order(const CandidateModel& candidate);
 
 /// The sets of the table of candidates: those that compete, then those that stand next.
 std::vector<const WeightedSet*> sets_shown(const LoopAnswer& answer);
+
+// What to measure next (next_run_words.cpp): the run that sets the candidates apart (next_run), or where nothing has a
+// name the runs that show how the unexplained part depends on a condition.
+
+/// What to measure next, or why no run is proposed: first what to do, then sentences on why. Empty where no question is
+/// open.
+std::vector<std::string> what_next(const LoopAnswer& answer);
+
+/// Whether the run of LoopAnswer::next is worth making: not where the sets that it decides between are a hundred to one
+/// apart already and neither explains the data.
+bool proposes_next(const LoopAnswer& answer);
+
+/// Names of the conditions of the next run that lie outside what was run, and for which no limit of the rig is given.
+std::vector<std::string> beyond_what_is_known(const NextRun& next);
+
+/// At an unknown effect: what the residual depends on (after the model's effects, where it takes any), surest first, as
+/// many as keep the false-discovery rate at 5 %.
+std::vector<Dependence> sure_dependences(const LoopAnswer& answer);
+
+/// Where an unknown effect depends on a condition (sure_dependences), runs that show how, with that condition alone
+/// at five settings over the range that was run, all else as in the run that the model misses most. Empty where none is
+/// known.
+std::vector<OperatingCondition> shape_series(const LoopAnswer& answer);
+
+/// A number in three digits.
+std::string setting(double value);
+
+/// A condition of a run to be made as the rig would be set to it (rig_setting) [SI]; not a number where it is not
+/// known.
+double rig_setting_of(const LoopAnswer& answer, const OperatingCondition& at, const std::string& condition);
+
+/// A condition of a run to be made as the rig would be set to it (rig_setting), in the unit of the campaign's own
+/// column, and that unit: ("10", "mm/s"). An empty value where the condition is not known.
+std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const OperatingCondition& at,
+                                                 const std::string& condition);
+
+// Sets of effects and the evidence for them (evidence_words.cpp).
+
+/// "a", "a and b", "a, b and c".
+std::string joined_with_and(const std::vector<std::string>& words);
+
+/// Ids: "slip_sinkage", "multipass + sensor_offset"; "no effect" for an empty set.
+std::string joined(const std::set<std::string>& ids);
+
+/// Names for people: "side-wall bulldozing, slip sinkage and hard layer"; "no effect" for an empty set.
+std::string named_effects(const std::set<std::string>& ids);
+
+/// "p = 0.012"; "p < 0.00025" where no simulated campaign looked like this.
+std::string p_words(const ResidualSignatures& signatures);
+/// "not explained by noise (p = 0.012)"; from p = 0.05 on "explained by noise (p = 0.3)".
+std::string noise_verdict(const ResidualSignatures& signatures);
+
+/// Odds from their logarithm: "132 times", "more than a million times".
+std::string times_likelier(double log_odds);
+
+/// What a verdict rests on, as a clause.
+std::string reason_words(const TooFewValues& few);
+std::string reason_words(const Judgement& judgement);
+
+/// "g = (0.110 ± 0.012) slip^2 - (0.031 ± 0.004)".
+std::string formula_text(const LearnedFormula& formula);
+
+/// A share of the evidence below this [-] is told as "< 1 %".
+inline constexpr double least_share = 0.005;
+
+/// A set's share of the evidence as every sentence and table has it: "81 %".
+std::string share_words(double weight);
 
 // Tables (answer_tables.cpp).
 

@@ -1,18 +1,15 @@
 #include "compare/loop/loop.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
 #include "compare/attribution/model_discrepancy.hpp"
 #include "compare/fit/thresholds.hpp"
-#include "compare/loop/answer_words.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-/// The effects of a candidate, with errors; p-values and cosines are those of effects that stand in (1, none).
+/// The effects of a candidate, with errors; p-values and cosines are those of proxies (1, none).
 std::vector<AcceptedEffect> effects_of(const CandidateModel& candidate) {
   constexpr double two_sided = 1.96;
   const WheelPredictor& predictor = candidate.model.predictor();
@@ -38,7 +35,7 @@ std::vector<AcceptedEffect> effects_of(const CandidateModel& candidate) {
   return effects;
 }
 
-/// The same with the p-value and the cosines of each.
+/// The effects of the best candidate, with the p-value and the cosines of each.
 std::vector<AcceptedEffect> accepted_effects(const Attribution& found, const AttributionOptions& options) {
   std::vector<AcceptedEffect> effects = effects_of(found.best());
   for (std::size_t t = 0; t < effects.size(); ++t) {
@@ -48,7 +45,7 @@ std::vector<AcceptedEffect> accepted_effects(const Attribution& found, const Att
   return effects;
 }
 
-/// Of each free soil value, beside a model with effects and beside the base model.
+/// Each free soil value beside a model with effects and beside the base model.
 std::vector<SoilShift> soil_shifts(const FittedModel& with, const FittedModel& without) {
   // the same soil parameters come first in both
   const Eigen::VectorXd error = with.errors_held_or_free(), base_error = without.errors_held_or_free(),
@@ -111,15 +108,16 @@ struct Decision {
   std::optional<SecondAttribution> second;
 
   const Attribution& found() const { return judgement.found; }
-  /// The model that the verdict takes: the chosen candidate's, or the base model.
-  const FittedModel& model() const { return judgement.takes_best() ? found().best().model : found().base; }
+  /// The chosen candidate's model where its effects are used, or the base model.
+  const FittedModel& model(bool uses_candidate) const { return uses_candidate ? found().best().model : found().base; }
+  const FittedModel& model() const { return model(judgement.uses_candidate()); }
   /// That model fitted to the data of the base model taken as exact.
   FittedModel exact_model(const FittedModel& base) const {
-    return refitted_as_exact(base, judgement.takes_best() ? &model() : nullptr);
+    return refitted_as_exact(base, judgement.uses_candidate() ? &model() : nullptr);
   }
   /// The noise in whose unit errors are told: beside accepted effects where there are any.
   NoiseFloor noise() const {
-    return judgement.verdict == Verdict::effect_found ? noise_beside(model()) : found().base.data().noise;
+    return judgement.verdict() == Verdict::effect_found ? noise_beside(model()) : found().base.data().noise;
   }
 };
 
@@ -127,7 +125,7 @@ struct Decision {
 /// and slip, taken for another effect, had hidden. The attribution that explains the data better decides; the other is
 /// a note.
 Decision decide(Judgement first, const AttributionOptions& options) {
-  if (first.verdict != Verdict::unknown_effect) return {std::move(first), std::nullopt};
+  if (first.verdict() != Verdict::unknown_effect) return {std::move(first), std::nullopt};
   auto beside = attribute_with_model_discrepancy(first.found, options);
   if (!beside) return {std::move(first), std::nullopt};
   if (!explains_better(beside->found, first.found))
@@ -147,15 +145,15 @@ AttributionOptions of_a_fold(AttributionOptions options) {
 WithOutliers keep_outliers(const Campaign& campaign, const Observations& observations, AttributionOptions options) {
   options.drop_outliers = false;
   const Judgement kept = judge(attribute(fit_base(campaign, observations, options), options), options);
-  if (kept.verdict != Verdict::effect_found) return {kept.verdict, {}};
-  return {kept.verdict, kept.found.best().ids};
+  if (kept.verdict() != Verdict::effect_found) return {kept.verdict(), {}};
+  return {kept.verdict(), kept.found.best().ids};
 }
 
 /// What only the attribution that does not decide leaves. An exact base model's sets always: an effect of load and slip
 /// alone looks like what the other one lets go. The other one's where it explains the data nearly as well.
 std::vector<WeightedSet> alternative_sets(const Decision& decision, const std::vector<WeightedSet>& listed) {
   const std::optional<SecondAttribution>& second = decision.second;
-  if (!second || !second->alternative.candidates.best) return {};
+  if (!decision.found().candidates.best || !second->alternative.candidates.best) return {};
   const double behind = evidence_of_best(decision.found()) - evidence_of_best(second->alternative);
   if (!second->decides && behind > competitors(second->alternative.candidates).front().allowed) return {};
   std::vector<WeightedSet> noted = ambiguity_set(second->alternative.candidates);
@@ -174,7 +172,7 @@ std::vector<Dependence> dependences_of(const FittedModel& model, std::uint64_t s
 /// Learned effects for what named ones do not explain.
 std::vector<LearnedEffect> learned_beside(const FittedModel& base, const Decision& decision,
                                           const AttributionOptions& options) {
-  if (decision.judgement.verdict != Verdict::unknown_effect) return {};
+  if (decision.judgement.verdict() != Verdict::unknown_effect) return {};
   return learn_effects(decision.exact_model(base), options);
 }
 
@@ -188,7 +186,7 @@ bool is_no_better(const CrossValidation& errors) {
 /// Whether named effects do not stand before conditions left out. Where folds, which have fewer conditions, choose none
 /// or do worse, an effect of overwhelming evidence is named all the same, and its error told.
 bool is_refuted(const Judgement& judgement, const CrossValidation& errors) {
-  return judgement.verdict == Verdict::effect_found && was_asked(errors) &&
+  return judgement.verdict() == Verdict::effect_found && was_asked(errors) &&
          errors.overall.after > errors.overall.before && judgement.found.signatures.p_value > thresholds::sure_level;
 }
 
@@ -207,12 +205,12 @@ bool predicts_better(const CrossValidation& with_learned) {
 /// the named effects leave.
 struct Validated {
   NoiseFloor noise;        ///< in whose unit errors are told
-  CrossValidation errors;  ///< after: with what is taken
+  CrossValidation errors;  ///< after: with the effects that are used
   std::vector<LearnedEffect> learned;
+  bool uses_candidate = false;  ///< its effects are accepted, or proxies that predict better
 };
 
-/// Takes stand-ins back from the decision that predict no better.
-Validated validate(const FittedModel& base, Decision& decision, std::vector<LearnedEffect> learned,
+Validated validate(const FittedModel& base, const Decision& decision, std::vector<LearnedEffect> learned,
                    const LoopOptions& options, LoopProgress& progress) {
   NoiseFloor noise = decision.noise();
   CrossValidation errors;
@@ -220,7 +218,7 @@ Validated validate(const FittedModel& base, Decision& decision, std::vector<Lear
     errors = cross_validate(base.data(), noise,
                             {.attribution = of_a_fold(options.attribution),
                              .with_model_discrepancy = decision.second && decision.second->decides,
-                             .takes_named = decision.judgement.takes_best(),
+                             .takes_named = decision.judgement.uses_candidate(),
                              .learn = !learned.empty(),
                              .folds = options.folds,
                              .threads = options.threads,
@@ -228,25 +226,18 @@ Validated validate(const FittedModel& base, Decision& decision, std::vector<Lear
   const Observations& all = base.data().observations;
   if (!learned.empty() && !predicts_better(errors))
     learned.clear(), errors = without_learned_effects(std::move(errors), all);
-  Judgement& judgement = decision.judgement;
-  const bool stands_in = judgement.takes_best() && judgement.verdict == Verdict::unknown_effect;
-  if (stands_in && is_no_better(errors)) judgement.choice->stands = false;
-  if (!judgement.takes_best() && learned.empty()) errors = without_effects(std::move(errors), all);
-  return {std::move(noise), std::move(errors), std::move(learned)};
+  const Judgement& judgement = decision.judgement;
+  const bool refused = judgement.verdict() == Verdict::unknown_effect && is_no_better(errors);
+  const bool uses_candidate = judgement.uses_candidate() && !refused;
+  if (!uses_candidate && learned.empty()) errors = without_effects(std::move(errors), all);
+  return {std::move(noise), std::move(errors), std::move(learned), uses_candidate};
 }
 
-Validated learn_and_validate(const FittedModel& base, Decision& decision, const LoopOptions& options,
+Validated learn_and_validate(const FittedModel& base, const Decision& decision, const LoopOptions& options,
                              const AttributionOptions& whole, LoopProgress& progress) {
   std::vector<LearnedEffect> learned = learned_beside(base, decision, whole);
   progress.choice_made();
   return validate(base, decision, std::move(learned), options, progress);
-}
-
-std::string why_refuted(const CrossValidation& errors) {
-  return fmt::format(
-      "with the effects that are found without them conditions left out are predicted worse: {:.4g} standard "
-      "deviations of the noise, root mean square, in place of {:.4g}",
-      errors.overall.after, errors.overall.before);
 }
 
 std::vector<SetAside> set_aside_by(const FittedModel& base, const Observations& given) {
@@ -264,13 +255,6 @@ std::vector<SetAside> set_aside_by(const FittedModel& base, const Observations& 
   return all;
 }
 
-/// The best named effects of an unknown one, and the learned ones beside them: the last candidate holds them all.
-std::vector<AcceptedEffect> stand_ins(const Judgement& judgement, const std::vector<LearnedEffect>& learned) {
-  if (!learned.empty()) return effects_of(learned.back().candidate);
-  if (!judgement.takes_best() || judgement.verdict != Verdict::unknown_effect) return {};
-  return effects_of(judgement.found.best());
-}
-
 /// The campaign's wheel, with a pressure of the runs where each of them tells one: what an effect need not presume.
 Tire as_run(const Campaign& campaign) {
   const bool told =
@@ -278,27 +262,23 @@ Tire as_run(const Campaign& campaign) {
   return told && !campaign.runs.empty() ? tire_at(campaign.wheel, campaign.runs.front().at) : campaign.wheel;
 }
 
-/// An answer that says no more than why.
-LoopAnswer not_judged(const Campaign& campaign, std::string reason) {
+/// What every answer says of its campaign.
+LoopAnswer answer_on(const Campaign& campaign) {
   LoopAnswer answer;
   answer.campaign = campaign.name;
   answer.wheel = as_run(campaign);
   answer.soil = campaign.soil;
-  answer.reason = std::move(reason);
   return answer;
 }
 
-/// The same of a campaign that was fitted.
-LoopAnswer not_judged(const Campaign& campaign, const Observations& given, std::vector<std::string> not_testable,
-                      Decision decision) {
-  const FittedModel& base = decision.found().base;
-  LoopAnswer answer = not_judged(campaign, decision.judgement.reason);
+/// What every answer says of a campaign that was fitted.
+LoopAnswer answer_on(const FittedModel& base, const Observations& given, std::vector<std::string> not_testable) {
+  LoopAnswer answer = answer_on(*base.data().campaign);
   answer.not_testable = std::move(not_testable);
   answer.dependences_before = dependences_of(base, 7);
   answer.noise = base.data().noise;
   answer.soil = base.soil();
   answer.set_aside = set_aside_by(base, given);
-  answer.judgement = std::move(decision.judgement);
   return answer;
 }
 
@@ -311,56 +291,62 @@ struct Stages {
   Validated validated;
 };
 
+/// What the candidates add, and the model that is saved.
+WithCandidates with_candidates(const Stages& made, const FittedModel& saved, const Limits& limits) {
+  const Attribution& found = made.decision.found();
+  const Validated& validated = made.validated;
+  WithCandidates with;
+  if (found.candidates.best) {
+    with.ambiguity_set = ambiguity_set(found.candidates);
+    with.next = next_run(found, limits);
+  }
+  if (validated.uses_candidate) with.dependences_after = dependences_of(found.best().model, 11);
+  if (validated.uses_candidate || !validated.learned.empty())
+    with.soil_shifts = soil_shifts(saved, validated.learned.empty() ? found.base : made.base);
+  return with;
+}
+
+UnknownEffect unknown_effect(Stages& made, WithCandidates with, const AttributionOptions& options) {
+  std::optional<SecondAttribution>& second = made.decision.second;
+  if (second) second->sets = alternative_sets(made.decision, with.ambiguity_set);
+  UnknownEffect unknown{std::move(with), {}, std::move(made.validated.learned), {}, std::move(second)};
+  if (!unknown.learned.empty()) {
+    unknown.proxy_effects = effects_of(unknown.learned.back().candidate);
+    unknown.formula = find_formula(made.decision.exact_model(made.base), unknown.learned.front(), options);
+  } else if (made.validated.uses_candidate) {
+    unknown.proxy_effects = effects_of(made.decision.found().best());
+  }
+  return unknown;
+}
+
 LoopAnswer answer_of(Stages made, const AttributionOptions& options, const Limits& limits) {
-  const FittedModel& base = made.base;
-  const Decision& decision = made.decision;
-  const Attribution& found = decision.found();
+  const Attribution& found = made.decision.found();
   const std::vector<LearnedEffect>& learned = made.validated.learned;
-  const Campaign& campaign = *base.data().campaign;
-  const Verdict verdict = decision.judgement.verdict;
-  const bool takes_best = decision.judgement.takes_best();
-  const bool competing = verdict != Verdict::nothing_missing && found.candidates.best;
-  const FittedModel& saved = learned.empty() ? decision.model() : learned.back().candidate.model;
-
-  auto formula = learned.empty() ? std::nullopt : find_formula(decision.exact_model(base), learned.front(), options);
-  std::vector<AcceptedEffect> effects, stand_in = stand_ins(decision.judgement, learned);
-  if (verdict == Verdict::effect_found) effects = accepted_effects(found, options);
-  std::vector<WeightedSet> listed, noted;
-  if (competing) listed = ambiguity_set(found.candidates), noted = alternative_sets(decision, listed);
-  std::vector<Dependence> left;
-  if (takes_best) left = dependences_of(decision.model(), 11);
-  std::vector<SoilShift> shifts;
-  if (takes_best || !learned.empty()) shifts = soil_shifts(saved, learned.empty() ? found.base : base);
-  std::vector<SetAside> set_aside = set_aside_by(found.base, made.given);
-  const bool aside = !set_aside.empty();
-
-  return {
-      .campaign = campaign.name,
-      .wheel = as_run(campaign),
-      .verdict = verdict,
-      .reason = decision.judgement.reason + held_out_clause(made.validated.errors, !effects.empty(), !stand_in.empty()),
-      .effects = std::move(effects),
-      .stand_in = std::move(stand_in),
-      .formula = std::move(formula),
-      .ambiguity_set = std::move(listed),
-      .alternative_sets = std::move(noted),
-      .not_testable = std::move(made.not_testable),
-      .next = competing ? next_test(found, limits) : std::nullopt,
-      .dependences_before = dependences_of(found.base, 7),
-      .dependences_after = std::move(left),
-      .noise = made.validated.noise,
-      .soil_shifts = std::move(shifts),
-      .soil = saved.soil(),
-      .set_aside = std::move(set_aside),
-      .with_outliers = aside ? std::optional(keep_outliers(campaign, made.given, options)) : std::nullopt,
-      .validation = std::move(made.validated.errors),
-      .learned = std::move(made.validated.learned),
-      .second = std::move(made.decision.second),
-      .judgement = std::move(made.decision.judgement),
-  };
+  const FittedModel& saved =
+      learned.empty() ? made.decision.model(made.validated.uses_candidate) : learned.back().candidate.model;
+  LoopAnswer answer = answer_on(found.base, made.given, std::move(made.not_testable));
+  answer.noise = made.validated.noise;
+  answer.soil = saved.soil();
+  if (!answer.set_aside.empty()) answer.with_outliers = keep_outliers(*made.base.data().campaign, made.given, options);
+  answer.validation = std::move(made.validated.errors);
+  const Verdict verdict = made.decision.judgement.verdict();
+  if (verdict == Verdict::effect_found)
+    answer.outcome = EffectFound{with_candidates(made, saved, limits), accepted_effects(found, options)};
+  else if (verdict == Verdict::unknown_effect)
+    answer.outcome = unknown_effect(made, with_candidates(made, saved, limits), options);
+  else
+    answer.outcome = NothingMissing{};
+  answer.judged = std::move(made.decision.judgement);
+  return answer;
 }
 
 }  // namespace
+
+const WithCandidates& LoopAnswer::with_candidates() const {
+  static const WithCandidates none;
+  if (const auto* found = std::get_if<EffectFound>(&outcome)) return *found;
+  return unknown() ? *unknown() : none;
+}
 
 std::set<std::string> ids_of(const std::vector<AcceptedEffect>& effects) {
   std::set<std::string> ids;
@@ -374,16 +360,24 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   whole.pool = {options.threads, [&] { progress.pulse(); }};
 
   const Observations observations = observe(campaign);
-  if (auto reason = too_small(campaign, observations)) return not_judged(campaign, std::move(*reason));
+  if (const auto few = too_small(campaign, observations)) {
+    LoopAnswer answer = answer_on(campaign);
+    answer.judged = *few;
+    return answer;
+  }
   const FittedModel base = fit_base(campaign, observations, whole);
   Judgement first = judge(attribute(base, whole), whole);
   std::vector<std::string> hidden = not_testable(first.found);
   Decision decision = decide(std::move(first), whole);
-  if (decision.judgement.verdict == Verdict::not_enough_data)
-    return not_judged(campaign, observations, std::move(hidden), std::move(decision));
+  if (decision.judgement.verdict() == Verdict::not_enough_data) {
+    LoopAnswer answer = answer_on(decision.found().base, observations, std::move(hidden));
+    answer.judged = std::move(decision.judgement);
+    return answer;
+  }
   Validated validated = learn_and_validate(base, decision, options, whole, progress);
   if (is_refuted(decision.judgement, validated.errors)) {
-    decision = decide(without_its_effects(std::move(decision.judgement), why_refuted(validated.errors)), whole);
+    const Refuted refuted{validated.errors.overall.before, validated.errors.overall.after};
+    decision = decide(without_its_effects(std::move(decision.judgement), refuted), whole);
     validated = learn_and_validate(base, decision, options, whole, progress);
   }
   progress.validation_made();

@@ -1,7 +1,7 @@
 // The loop on measured data: residual, cause, effect added, error before and after (docs/guide/loop.md).
 //
 //   const LoopAnswer answer = run_loop(campaign, {});
-//   if (answer.verdict == Verdict::effect_found) answer.effects.front().choice;  // {"slip_sinkage", "linear", ...}
+//   if (answer.verdict() == Verdict::effect_found) answer.effects().front().choice;  // {"slip_sinkage", "linear", ...}
 //
 // Stages, each a value that the next one takes:
 //   1 observe            Campaign -> Observations                       fit/observations.hpp
@@ -13,24 +13,22 @@
 //       learn_effects    smooth functions of the conditions             attribution/learned_effect.hpp
 //       find_formula     a few terms in the place of one                attribution/learned_formula.hpp
 //   6 cross_validate     -> CrossValidation: honest errors              attribution/validation.hpp
-//   7 next_test          -> NextTest                                    test_design/next_test.hpp
-//   8 LoopAnswer: JSON, sentences, page, saved model                    answer_json.cpp, answer_words.hpp,
-//                                                                       loop_page.cpp
+//   7 next_test          -> NextRun                                    test_design/next_run.hpp
+//   8 LoopAnswer; as JSON, sentences, page, saved model                 answer_words.hpp
 #pragma once
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "compare/attribution/learned_formula.hpp"
 #include "compare/attribution/validation.hpp"
 #include "compare/attribution/verdict.hpp"
-#include "compare/test_design/next_test.hpp"
-#include "scenario/case.hpp"
+#include "compare/test_design/next_run.hpp"
 
 namespace soilbin::compare {
 
@@ -76,87 +74,103 @@ struct WithOutliers {
   std::set<std::string> effects;
 };
 
-/// Of an unknown effect: the residual attributed twice, with a base model that is exact and with one that may be off by
+/// The residual of an unknown effect attributed twice, with a base model that is exact and with one that may be off by
 /// itself (model_discrepancy.hpp).
 struct SecondAttribution {
   bool decides = false;     ///< the base model that may be off explains the data better; else the exact one decides
   double size = 0.0;        ///< DiscrepancyAttribution::size
-  Attribution alternative;  ///< the attribution that does not decide; the one that does is LoopAnswer::judgement
+  Attribution alternative;  ///< the attribution that does not decide; the one that does is the judgement's
+  /// Sets that only the alternative leaves: indices are those of its candidates, weights 0.
+  std::vector<WeightedSet> sets{};
+};
+
+// What an answer holds by its verdict.
+
+struct TooLittleData {};
+struct NothingMissing {};
+
+/// What fitted candidates add to an answer, whether one is accepted or none.
+struct WithCandidates {
+  std::vector<WeightedSet> ambiguity_set;     ///< that the data cannot tell apart, best first
+  std::optional<NextRun> next;                ///< that would; of an unknown effect between the nearest named sets
+  std::vector<Dependence> dependences_after;  ///< of what the model with named effects leaves
+  std::vector<SoilShift> soil_shifts;         ///< of the free values, by the effects of the saved model
+};
+
+struct EffectFound : WithCandidates {
+  std::vector<AcceptedEffect> effects;
+};
+
+struct UnknownEffect : WithCandidates {
+  /// The best named effects, where conditions left out are predicted better with them, then the learned ones. They are
+  /// in the model that is saved in place of the unknown effect, and explain nothing.
+  std::vector<AcceptedEffect> proxy_effects;
+  /// Smooth functions of one condition or two that predict conditions left out better still, each learned beside those
+  /// before. The soil is fitted with them.
+  std::vector<LearnedEffect> learned;
+  std::optional<LearnedFormula> formula;  ///< of the first learned effect, where a few terms do as well
+  std::optional<SecondAttribution> second;
 };
 
 struct LoopAnswer {
   std::string campaign;
-  Tire wheel;  ///< of the campaign: of what it does not declare, effects presume some
-  Verdict verdict = Verdict::not_enough_data;
-  std::string reason;  ///< one plain sentence
-  std::vector<AcceptedEffect> effects;
-  /// Of an unknown effect: the best named ones, where conditions left out are predicted better with them, then the
-  /// learned ones. They stand in for it in the model that is saved, and explain nothing.
-  std::vector<AcceptedEffect> stand_in;
-  std::optional<LearnedFormula> formula;   ///< of the first learned effect, where a few terms do as well
-  std::vector<WeightedSet> ambiguity_set;  ///< best first; empty unless effects compete
-  /// Sets that only the attribution which does not decide leaves: indices are those of its candidates, weights 0.
-  std::vector<WeightedSet> alternative_sets;
+  Tire wheel;              ///< of the campaign: of what it does not declare, effects presume some
+  SemiEmpiricalSoil soil;  ///< refitted with the effects of the saved model, with standard errors
+  /// What the verdict comes from: the attribution that decides, or why the campaign is too small to fit.
+  std::variant<TooFewValues, Judgement> judged;
+  std::variant<TooLittleData, NothingMissing, EffectFound, UnknownEffect> outcome;  ///< in the order of Verdict
   std::vector<std::string> not_testable;
-  std::optional<NextTest> next;  ///< also of an unknown effect: between the named sets that come nearest
-  std::vector<Dependence> dependences_before, dependences_after;
-  NoiseFloor noise;                    ///< beside the accepted effects where there are any: the unit of errors
-  std::vector<SoilShift> soil_shifts;  ///< of the free values, where effects are accepted or stand in
-  SemiEmpiricalSoil soil;           ///< refitted with the accepted effects or those that stand in, with standard errors
-  std::vector<SetAside> set_aside;  ///< measured values that were left out of every fit
+  std::vector<Dependence> dependences_before;
+  NoiseFloor noise;                           ///< beside the accepted effects where there are any: the unit of errors
+  std::vector<SetAside> set_aside;            ///< measured values that were left out of every fit
   std::optional<WithOutliers> with_outliers;  ///< where any were
   CrossValidation validation;
-  /// Of an unknown effect: smooth functions of one condition or two that predict conditions left out better still, each
-  /// learned beside those before. The soil is fitted with them.
-  std::vector<LearnedEffect> learned;
-  std::optional<SecondAttribution> second;
-  /// The attribution that decides and what is made of it: verdict, shares, tables, saved model and next test are its.
-  /// Absent where the campaign is too small to fit.
-  std::optional<Judgement> judgement;
 
+  Verdict verdict() const { return static_cast<Verdict>(outcome.index()); }
   int outliers() const { return static_cast<int>(set_aside.size()); }
-  const Attribution& found() const { return judgement->found; }
+  const Judgement* judgement() const { return std::get_if<Judgement>(&judged); }
+  const Attribution& found() const { return std::get<Judgement>(judged).found; }
   /// Whether any set of effects was fitted.
-  bool has_candidates() const { return judgement && !found().candidates.sets.empty(); }
+  bool has_candidates() const { return judgement() && !found().candidates.sets.empty(); }
   /// What the chosen candidate leaves, and what it gains over the base model; without one nothing.
-  ChosenCandidate choice() const { return judgement && judgement->choice ? *judgement->choice : ChosenCandidate{}; }
-  /// The effects of the model that is saved: those accepted, or those that stand in.
-  const std::vector<AcceptedEffect>& taken() const { return effects.empty() ? stand_in : effects; }
-  /// A learned effect as it stands in that model.
-  const EffectChoice& learned_choice(std::size_t k) const {
-    return stand_in[stand_in.size() - learned.size() + k].choice;
+  ChosenCandidate choice() const {
+    return judgement() && judgement()->choice ? *judgement()->choice : ChosenCandidate{};
   }
-  /// What is saved: the base model, or one with the accepted effects or those that stand in.
+  /// Null but for an unknown effect.
+  const UnknownEffect* unknown() const { return std::get_if<UnknownEffect>(&outcome); }
+  // Members of the outcome, empty where it has none such.
+  const WithCandidates& with_candidates() const;
+  const std::vector<WeightedSet>& ambiguity_set() const { return with_candidates().ambiguity_set; }
+  const std::optional<NextRun>& next() const { return with_candidates().next; }
+  const std::vector<AcceptedEffect>& effects() const { return of(&EffectFound::effects); }
+  const std::vector<AcceptedEffect>& proxy_effects() const { return of(&UnknownEffect::proxy_effects); }
+  const std::vector<LearnedEffect>& learned() const { return of(&UnknownEffect::learned); }
+  /// The effects of the model that is saved: those accepted, or the proxies.
+  const std::vector<AcceptedEffect>& effects_in_model() const {
+    return effects().empty() ? proxy_effects() : effects();
+  }
+  bool uses_effects() const { return !effects_in_model().empty(); }
+  /// What is saved: the base model, or one with these effects.
   const FittedModel& model() const {
-    return !learned.empty()          ? learned.back().candidate.model
-           : judgement->takes_best() ? found().best().model
-                                     : found().base;
+    return !learned().empty() ? learned().back().candidate.model : uses_effects() ? found().best().model : found().base;
   }
-  /// Whether the attribution with a model discrepancy decides; and that attribution, null where there was none.
-  bool decided_with_model_discrepancy() const { return second && second->decides; }
-  const Attribution* with_model_discrepancy() const {
-    return !second ? nullptr : second->decides ? &found() : &second->alternative;
+  /// The attribution beside the one that decides; null where there was none.
+  const SecondAttribution* second() const { return unknown() && unknown()->second ? &*unknown()->second : nullptr; }
+
+ private:
+  template <class Held, class Member>
+  const Member& of(Member Held::*member) const {
+    static const Member none{};
+    const Held* held = std::get_if<Held>(&outcome);
+    return held ? held->*member : none;
   }
 };
 
-/// Ids of effects that stand together.
+/// Ids of some effects.
 std::set<std::string> ids_of(const std::vector<AcceptedEffect>& effects);
 
 /// Runs the loop. Throws InputError for a campaign that can't be used; a campaign too small to say anything is a
 /// verdict, not an error.
 LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options);
-
-/// The answer as JSON, soilbin-loop/1.
-nlohmann::ordered_json to_json(const LoopAnswer& answer);
-
-/// What stands behind it: p-values, chi2, evidence, every set of effects that competed, the choice of each fold.
-nlohmann::ordered_json details_json(const LoopAnswer& answer);
-
-/// The campaign's wheel on the refitted soil with the accepted effects, at each of its conditions: what estimate, run
-/// and predict --model take.
-Case resolved_model(const Campaign& campaign, const LoopAnswer& answer);
-
-/// The source that such a case tells: "fitted to campaign cmu-smooth".
-std::string source_of_fit(const std::string& campaign);
 
 }  // namespace soilbin::compare

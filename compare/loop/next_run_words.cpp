@@ -1,5 +1,3 @@
-#include "compare/loop/next_run_words.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,8 +16,8 @@ namespace {
 
 std::string condition_words(const LoopAnswer& answer) {
   std::string text;
-  for (const std::string& name : answer.next->quantities) {
-    const auto [value, unit] = next_setting(answer, answer.next->at, name);
+  for (const std::string& name : answer.next()->quantities) {
+    const auto [value, unit] = next_setting(answer, answer.next()->at, name);
     if (value.empty()) continue;
     text += fmt::format("{}{} {}{}{}", text.empty() ? "" : ", ", condition_view(name).title, value,
                         unit.empty() ? "" : " ", unit);
@@ -27,13 +25,19 @@ std::string condition_words(const LoopAnswer& answer) {
   return text;
 }
 
+/// Dependences of what the model leaves.
+const std::vector<Dependence>& dependences_left(const LoopAnswer& answer) {
+  const std::vector<Dependence>& after = answer.with_candidates().dependences_after;
+  return after.empty() ? answer.dependences_before : after;
+}
+
 /// What to do where no condition shows on which the rest depends.
 std::vector<std::string> without_a_condition(const LoopAnswer& answer) {
   const UnnamedEvidence& unnamed = answer.found().unnamed;
-  if (unnamed.gain > thresholds::unnamed_instead && unnamed.most_likely == misread_kind)
+  if (unnamed.gain > thresholds::unnamed_instead && unnamed.most_likely == Unnamed::misread_condition)
     return {"Before more runs, check how slip and load are measured, and at which conditions.",
             "The unexplained part looks like a misread slip or load."};
-  if (answer.judgement->before.serial.p_value <= thresholds::serial_level)
+  if (answer.judgement()->before.serial.p_value <= thresholds::serial_level)
     return {"Measure one setpoint, repeated through the whole campaign.",
             "The unexplained part changes from run to run, not by chance."};
   return {"Vary one condition alone, each setting run twice.", "The cause of the unexplained part is not visible yet."};
@@ -44,14 +48,13 @@ std::vector<std::string> to_show_its_shape(const LoopAnswer& answer) {
   const std::vector<Dependence> sure = sure_dependences(answer);
   if (sure.empty()) return without_a_condition(answer);
   const Dependence& on = sure.front();
-  const auto& looked_at = answer.dependences_after.empty() ? answer.dependences_before : answer.dependences_after;
   const std::string variable = spaced(condition_view(on.variable).title);
   return {on.variable == "run"
               ? "Measure one setpoint, repeated through the whole campaign."
               : fmt::format("Measure several settings of the {} alone, each one twice, all else kept.", variable),
           fmt::format("The unexplained part of the {} depends most on the {} (p = {:.2g}; false-discovery rate over {} "
                       "pairs of channel and variable: {}).",
-                      channel_views[on.channel].title, variable, on.p_value, looked_at.size(),
+                      channel_views[on.channel].title, variable, on.p_value, dependences_left(answer).size(),
                       share_words(on.false_discovery_rate))};
 }
 
@@ -75,12 +78,12 @@ std::string next_behind(const LoopAnswer& answer) {
 
 /// The run that sets the candidates apart: what to do, then why.
 std::vector<std::string> to_set_apart(const LoopAnswer& answer) {
-  const NextTest& next = *answer.next;
+  const NextRun& next = *answer.next();
   const std::string ahead = named_effects(next.separates.front()), behind = named_effects(next.separates.back());
   std::vector<std::string> sentences;
-  if (answer.verdict == Verdict::unknown_effect)
+  if (answer.verdict() == Verdict::unknown_effect)
     sentences = {fmt::format("To choose between the nearest known effects, measure {}.", condition_words(answer))};
-  else if (answer.ambiguity_set.size() == 1)
+  else if (answer.ambiguity_set().size() == 1)
     sentences = {fmt::format("To confirm, measure {}.", condition_words(answer)),
                  fmt::format("There it differs most from the next candidate, {}: by {:.1f} standard deviations of one "
                              "run.",
@@ -90,12 +93,12 @@ std::vector<std::string> to_set_apart(const LoopAnswer& answer) {
   if (sentences.size() == 1)
     sentences.push_back(
         fmt::format("{} run{} there should decide: {} or {}.", next.runs, next.runs == 1 ? "" : "s", ahead, behind));
-  if (next.beyond.empty()) return sentences;
-  std::vector<std::string> names = next.beyond;
-  for (std::string& name : names) name = spaced(name);
+  std::vector<std::string> names, beyond = beyond_what_is_known(next);
+  if (beyond.empty()) return sentences;
+  for (const std::string& name : beyond) names.push_back(spaced(name));
   sentences.push_back(
       fmt::format("Its {} lie{} beyond the measured range; if your rig cannot reach it, give --limit {}=LOW..HIGH.",
-                  joined_with_and(names), names.size() == 1 ? "s" : "", next.beyond.front()));
+                  joined_with_and(names), names.size() == 1 ? "s" : "", beyond.front()));
   return sentences;
 }
 
@@ -103,15 +106,15 @@ std::vector<std::string> to_set_apart(const LoopAnswer& answer) {
 
 std::vector<std::string> what_next(const LoopAnswer& answer) {
   std::vector<std::string> sentences;
-  if (answer.verdict == Verdict::unknown_effect) {
+  if (answer.verdict() == Verdict::unknown_effect) {
     sentences = to_show_its_shape(answer);
   } else if (!proposes_next(answer)) {
-    if (answer.verdict == Verdict::effect_found && is_settled(answer.found().candidates))
+    if (answer.verdict() == Verdict::effect_found && is_settled(answer.found().candidates))
       return {fmt::format("No further run is needed to choose the effect: the next candidate, {}, is {} less likely.",
                           next_behind(answer), times_likelier(lead(answer.found().candidates)))};
-    if (answer.ambiguity_set.size() > 1)
+    if (answer.ambiguity_set().size() > 1)
       return {"No condition within the limits separates these candidates in 50 runs."};
-    if (answer.verdict == Verdict::effect_found && answer.ambiguity_set.size() == 1)
+    if (answer.verdict() == Verdict::effect_found && answer.ambiguity_set().size() == 1)
       return {"One candidate is left; no condition within the limits confirms it further in one run."};
   }
   if (proposes_next(answer))
@@ -119,18 +122,24 @@ std::vector<std::string> what_next(const LoopAnswer& answer) {
   return sentences;
 }
 
+std::vector<std::string> beyond_what_is_known(const NextRun& next) {
+  std::vector<std::string> names = next.beyond;
+  std::erase_if(names, [&](const std::string& name) { return next.given.contains(name); });
+  return names;
+}
+
 bool proposes_next(const LoopAnswer& answer) {
-  if (!answer.next || answer.verdict != Verdict::unknown_effect) return answer.next.has_value();
+  if (!answer.next() || answer.verdict() != Verdict::unknown_effect) return answer.next().has_value();
   const std::vector<const WeightedSet*> sets = sets_shown(answer);
   const auto other =
-      std::ranges::find_if(sets, [&](const WeightedSet* set) { return set->ids == answer.next->separates.back(); });
+      std::ranges::find_if(sets, [&](const WeightedSet* set) { return set->ids == answer.next()->separates.back(); });
   return other == sets.end() ||
          sets.front()->log_evidence - (*other)->log_evidence < std::log(thresholds::settled_odds);
 }
 
 std::vector<Dependence> sure_dependences(const LoopAnswer& answer) {
-  if (answer.verdict != Verdict::unknown_effect) return {};
-  std::vector<Dependence> all = answer.dependences_after.empty() ? answer.dependences_before : answer.dependences_after;
+  if (answer.verdict() != Verdict::unknown_effect) return {};
+  std::vector<Dependence> all = dependences_left(answer);
   std::erase_if(all, [](const Dependence& d) { return d.false_discovery_rate > thresholds::false_discovery_level; });
   std::ranges::stable_sort(all, [](const Dependence& a, const Dependence& b) {
     return std::pair(a.p_value, -a.share) < std::pair(b.p_value, -b.share);
@@ -159,7 +168,7 @@ double rig_setting_of(const LoopAnswer& answer, const OperatingCondition& at, co
   const double value = view.get(at);
   if (!std::isfinite(value)) return value;
   constexpr double anywhere = std::numeric_limits<double>::infinity();
-  const Limits limits = answer.next ? answer.next->given : Limits{};
+  const Limits limits = answer.next() ? answer.next()->given : Limits{};
   const auto given = limits.find(condition);
   const std::pair<double, double> within = given != limits.end() ? given->second : std::pair(-anywhere, anywhere);
   return rig_setting(view, value, data.observations, within, own_unit(data.campaign->columns, view).second);

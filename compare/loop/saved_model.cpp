@@ -56,22 +56,22 @@ Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
   model.source = source_of_fit(campaign.name);
   model.scenario = scenario_of(campaign);
   model.scenario.effects.clear();
-  if (answer.judgement) model.scenario.tire = answer.model().wheel();
+  if (answer.judgement()) model.scenario.tire = answer.model().wheel();
   model.scenario.tire.name = campaign.name + "-wheel";
   model.scenario.soil.name = campaign.name + "-soil";
   model.scenario.soil.semi_empirical = answer.soil;
   std::erase_if(model.scenario.soil.semi_empirical->sources,  // a value that was fitted is no usual one any more
-                [&](const auto& from) { return answer.judgement && from.second == usual_stress_angle_source; });
+                [&](const auto& from) { return answer.judgement() && from.second == usual_stress_angle_source; });
   model.study.name = model.name;
   ModelChoice choice;
   choice.effects = campaign.effects;
-  for (const AcceptedEffect& effect : answer.taken()) choice.effects.push_back(effect.choice);
+  for (const AcceptedEffect& effect : answer.effects_in_model()) choice.effects.push_back(effect.choice);
   model.description = "Made by soilbin loop: " + verdict_sentence(answer);
-  if (const std::string stand_in = stand_in_sentence(answer); !stand_in.empty()) model.description += " " + stand_in;
+  if (const std::string proxies = proxy_sentence(answer); !proxies.empty()) model.description += " " + proxies;
   for (const std::string& sentence : bekker_wong::presumptions(choice.effects, answer.wheel))
     model.description += " " + sentence;
   choice.label = "fitted";
-  if (answer.judgement) choice.errors = answer.model().errors(), choice.misfit = misfit_of(answer.validation);
+  if (answer.judgement()) choice.errors = answer.model().errors(), choice.misfit = misfit_of(answer.validation);
   model.study.models = {choice};
   model.study.conditions = asked_of(campaign, choice.effects);
   return model;

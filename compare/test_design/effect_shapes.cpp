@@ -52,7 +52,7 @@ FittedModel declared_model(const Campaign& campaign, Observations runs, const No
   return *model;
 }
 
-/// Of each term the signature at the larger size.
+/// The signature at the larger size of each term.
 std::vector<Signature> large_secants(std::vector<Signature> all) {
   std::vector<Signature> kept;
   for (Signature& s : all) {

@@ -1,6 +1,4 @@
 // compare/loop: what does the model lack?
-#include "compare/loop/loop.hpp"
-
 #include <fmt/core.h>
 
 #include "bekker_wong/effect.hpp"
@@ -16,7 +14,7 @@ using compare::AcceptedEffect;
 using compare::Campaign;
 using compare::LackOfFit;
 using compare::LoopAnswer;
-using compare::NextTest;
+using compare::NextRun;
 using compare::Verdict;
 using compare::WeightedSet;
 
@@ -48,11 +46,11 @@ void bind_loop_parts(py::module_& module) {
       .def_readonly("freedom", &LackOfFit::freedom)
       .def_readonly("noise_freedom", &LackOfFit::noise_freedom)
       .def_readonly("p_value", &LackOfFit::p_value);
-  py::class_<NextTest>(module, "NextTest", "The run to make next.")
-      .def_readonly("at", &NextTest::at)
-      .def_readonly("quantities", &NextTest::quantities)
-      .def_readonly("separates", &NextTest::separates)
-      .def_readonly("runs", &NextTest::runs);
+  py::class_<NextRun>(module, "NextTest", "The run to make next.")
+      .def_readonly("at", &NextRun::at)
+      .def_readonly("quantities", &NextRun::quantities)
+      .def_readonly("separates", &NextRun::separates)
+      .def_readonly("runs", &NextRun::runs);
 }
 
 /// Names of the channels that are predicted worse with the effects of the model than without.
@@ -66,9 +64,8 @@ std::vector<std::string> worse(const LoopAnswer& answer) {
 /// What each effect of the answer's model takes for values that its wheel does not declare, by the effect's id.
 std::map<std::string, std::vector<bekker_wong::Presumed>> presumes(const LoopAnswer& answer) {
   std::map<std::string, std::vector<bekker_wong::Presumed>> all;
-  for (const auto& effects : {answer.effects, answer.stand_in})
-    for (const AcceptedEffect& effect : effects)
-      all[effect.choice.id] = bekker_wong::presumed(bekker_wong::find_form(effect.choice), answer.wheel);
+  for (const AcceptedEffect& effect : answer.effects_in_model())
+    all[effect.choice.id] = bekker_wong::presumed(bekker_wong::find_form(effect.choice), answer.wheel);
   return all;
 }
 
@@ -90,23 +87,24 @@ py::dict held_out(const LoopAnswer& answer) {
 void bind_answer(py::module_& module) {
   py::class_<LoopAnswer>(module, "LoopAnswer", "The loop's answer (docs/guide/loop.md).")
       .def_readonly("campaign", &LoopAnswer::campaign)
-      .def_readonly("verdict", &LoopAnswer::verdict)
-      .def_readonly("reason", &LoopAnswer::reason, "one plain sentence")
-      .def_readonly("effects", &LoopAnswer::effects)
-      .def_readonly("stand_in", &LoopAnswer::stand_in,
-                    "of an unknown effect: the best named ones, where they predict held-out conditions better; they "
-                    "explain nothing")
-      .def_readonly("ambiguity_set", &LoopAnswer::ambiguity_set, "best first; empty unless effects compete")
+      .def_property_readonly("verdict", &LoopAnswer::verdict)
+      .def_property_readonly("reason", py::overload_cast<const LoopAnswer&>(&compare::reason_words),
+                             "one plain sentence")
+      .def_property_readonly("effects", &LoopAnswer::effects)
+      .def_property_readonly("stand_in", &LoopAnswer::proxy_effects,
+                             "of an unknown effect: the best named ones, where they predict held-out conditions "
+                             "better; they explain nothing")
+      .def_property_readonly("ambiguity_set", &LoopAnswer::ambiguity_set, "best first; empty unless effects compete")
       .def_readonly("not_testable", &LoopAnswer::not_testable)
-      .def_readonly("next", &LoopAnswer::next)
+      .def_property_readonly("next", &LoopAnswer::next)
       .def_property_readonly(
-          "before", [](const LoopAnswer& a) { return a.judgement ? a.judgement->before.lack_of_fit : LackOfFit(); })
+          "before", [](const LoopAnswer& a) { return a.judgement() ? a.judgement()->before.lack_of_fit : LackOfFit(); })
       .def_property_readonly("after", [](const LoopAnswer& a) { return a.choice().after.lack_of_fit; })
       .def_readonly("soil", &LoopAnswer::soil, "refitted with the accepted effects, with standard errors")
       .def_property_readonly("outliers", &LoopAnswer::outliers, "number of values set aside")
       .def_property_readonly(
           "weights",
-          [](const LoopAnswer& a) { return a.judgement ? a.found().candidates.sets : std::vector<WeightedSet>(); },
+          [](const LoopAnswer& a) { return a.judgement() ? a.found().candidates.sets : std::vector<WeightedSet>(); },
           "over sets of effects, best first")
       .def_property_readonly("held_out", &held_out,
                              "root mean square errors on conditions that neither choice nor fit has seen, by channel "

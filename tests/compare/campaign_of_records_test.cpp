@@ -149,9 +149,9 @@ TEST(SlowCampaignOfRecords, TheLoopFindsATiltThatWasNotTold) {
   LoopOptions options;
   options.validate = false;
   const LoopAnswer answer = run_loop(told.campaign, options);
-  ASSERT_EQ(answer.verdict, Verdict::effect_found) << answer.reason;
-  ASSERT_EQ(answer.effects.front().choice.id, "bed_tilt");
-  EXPECT_NEAR(answer.effects.front().choice.parameters.at("a"), 4 * degree, 0.5 * degree);
+  ASSERT_EQ(answer.verdict(), Verdict::effect_found);
+  ASSERT_EQ(answer.effects().front().choice.id, "bed_tilt");
+  EXPECT_NEAR(answer.effects().front().choice.parameters.at("a"), 4 * degree, 0.5 * degree);
 }
 
 }  // namespace

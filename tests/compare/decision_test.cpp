@@ -4,9 +4,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <random>
 
-#include "compare/calibrate/decision_words.hpp"
+#include "compare/calibrate/calibration_words.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -118,7 +118,7 @@ TEST(UnnamedFamilies, CarryOverTwoStandardDeviationsAtTheMost) {
   observations.conditions = 6;
   const std::vector<UnnamedKind> kinds =
       unnamed_functions({nullptr, observations, {}, noise, Whitening(observations, noise, prediction)}, prediction);
-  const auto carried = std::ranges::find(kinds, "what the run before left behind", &UnnamedKind::name);
+  const auto carried = std::ranges::find(kinds, Unnamed::run_before, &UnnamedKind::kind);
   ASSERT_NE(carried, kinds.end());
   EXPECT_NEAR(carried->families.front().col(torque).cwiseAbs().maxCoeff(), 2.0, 1e-9);
   EXPECT_NEAR(carried->families.front().col(sinkage).cwiseAbs().maxCoeff(), 2.0, 1e-9);
@@ -137,7 +137,7 @@ TEST(UnnamedFamilies, TellAMisreadSlip) {
   for (compare::Run& run : campaign.runs) run.at.slip += 0.05 * (run.at.load - 1050.0) / 450.0;
   const UnnamedEvidence misread = evidence(campaign);
   EXPECT_GT(misread.gain, std::log(1000.0));
-  EXPECT_EQ(misread.most_likely, misread_kind);
+  EXPECT_EQ(misread.most_likely, Unnamed::misread_condition);
 }
 
 // Nature's wheel digs by the catalogue's equation times 0.7 .. 1.3, the more the heavier it is: no second effect.
@@ -157,8 +157,8 @@ TEST(SlowEvidence, AFormThatIsAThirdOffIsStillOneEffect) {
   options.attribution.simulations = 1000;
   options.validate = false;
   const LoopAnswer answer = run_loop(campaign, options);
-  ASSERT_TRUE(answer.judgement && answer.found().candidates.best);
-  EXPECT_EQ(answer.found().candidates.sets.front().ids, std::set<std::string>{"slip_sinkage"}) << answer.reason;
+  ASSERT_TRUE(answer.judgement() && answer.found().candidates.best);
+  EXPECT_EQ(answer.found().candidates.sets.front().ids, std::set<std::string>{"slip_sinkage"});
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bekker_wong/effect_vocabulary.hpp"
-#include "compare/fit/wheel_predictor.hpp"
+#include "compare/loop/answer_words.hpp"
 #include "compare/loop_fixture.hpp"
 #include "scenario/case.hpp"
 #include "scenario/soil_parameters.hpp"
@@ -52,7 +52,9 @@ Case saved_model(const Campaign& campaign, const WheelPredictor& predictor, cons
   answer.soil = campaign.soil;
   for (std::size_t i = 0; i < soil_parameters.size(); ++i)
     (answer.soil.*soil_parameters[i].value).value = theta[static_cast<Eigen::Index>(i)];
-  for (const EffectChoice& choice : predictor.choices(theta)) answer.effects.emplace_back().choice = choice;
+  UnknownEffect unknown;
+  for (const EffectChoice& choice : predictor.choices(theta)) unknown.proxy_effects.emplace_back().choice = choice;
+  answer.outcome = std::move(unknown);
   return resolved_model(campaign, answer);
 }
 

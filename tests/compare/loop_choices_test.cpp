@@ -7,8 +7,7 @@
 
 #include "compare/fit/evidence.hpp"
 #include "compare/fit/thresholds.hpp"
-#include "compare/loop/loop.hpp"
-#include "compare/loop/next_run_words.hpp"
+#include "compare/loop/answer_words.hpp"
 #include "compare/loop_fixture.hpp"
 #include "compare/measured/condition_views.hpp"
 
@@ -30,16 +29,16 @@ LoopAnswer answer_to(double slip_sinkage, std::uint64_t seed, std::optional<doub
 // nothing is named. Among campaigns drawn so the first such one is looked at; about one in thirty is.
 TEST(LoopChoices, AnEffectThatPredictsNothingIsNotNamed) {
   const auto seen_but_useless = [](const LoopAnswer& a) {
-    return a.judgement && a.judgement->choice && a.found().signatures.p_value < 0.05 &&
+    return a.judgement() && a.judgement()->choice && a.found().signatures.p_value < 0.05 &&
            a.choice().gain.mean < a.choice().gain.std_error;
   };
   LoopAnswer answer;
   for (std::uint64_t seed = 23; seed < 150 && !seen_but_useless(answer); ++seed) answer = answer_to(0.03, seed);
   ASSERT_TRUE(seen_but_useless(answer));
-  EXPECT_EQ(answer.verdict, Verdict::nothing_missing) << answer.reason;
-  EXPECT_THAT(answer.reason, testing::HasSubstr("does not improve cross-validated predictions"));
-  EXPECT_TRUE(answer.effects.empty());
-  EXPECT_FALSE(answer.next);
+  EXPECT_EQ(answer.verdict(), Verdict::nothing_missing);
+  EXPECT_TRUE(std::holds_alternative<NoGain>(answer.judgement()->reason));
+  EXPECT_TRUE(answer.effects().empty());
+  EXPECT_FALSE(answer.next());
 }
 
 // One candidate comes near the noise, so each is weighed against noise of a known size.
@@ -57,12 +56,13 @@ TEST(LoopChoices, CandidatesAreWeighedByTheNoiseWhereOneComesNearIt) {
 // Slip sinkage so strong that nothing else comes near: no run is proposed against what is excluded already.
 TEST(LoopChoices, NoRunIsProposedAgainstAnExcludedCandidate) {
   const LoopAnswer answer = answer_to(0.5, 22);
-  ASSERT_EQ(answer.verdict, Verdict::effect_found) << answer.reason;
+  ASSERT_EQ(answer.verdict(), Verdict::effect_found);
   const Candidates& all = answer.found().candidates;
   const double excluded = std::log(thresholds::excluded_odds);
-  if (answer.next) {
-    EXPECT_LE(all.weighed(answer.next->separates[0]).log_evidence - all.weighed(answer.next->separates[1]).log_evidence,
-              excluded);
+  if (answer.next()) {
+    EXPECT_LE(
+        all.weighed(answer.next()->separates[0]).log_evidence - all.weighed(answer.next()->separates[1]).log_evidence,
+        excluded);
   } else {
     EXPECT_FALSE(what_next(answer).empty());
   }
@@ -74,7 +74,7 @@ std::optional<LoopAnswer> proposing_answer(std::optional<double> inflation_press
   for (const double size : {0.06, 0.09, 0.12, 0.2})
     for (const std::uint64_t seed : {22, 23, 24}) {
       LoopAnswer answer = answer_to(size, seed, inflation_pressure);
-      if (answer.verdict == Verdict::effect_found && answer.next) return answer;
+      if (answer.verdict() == Verdict::effect_found && answer.next()) return answer;
     }
   return std::nullopt;
 }
@@ -84,8 +84,8 @@ TEST(LoopChoices, TheNextRunLiesWithinTheLimitsAndSetsTheBestAgainstAnother) {
   const std::optional<LoopAnswer> proposing = proposing_answer();
   ASSERT_TRUE(proposing);
   const LoopAnswer& answer = *proposing;
-  ASSERT_TRUE(answer.next);
-  const NextTest& next = *answer.next;
+  ASSERT_TRUE(answer.next());
+  const NextRun& next = *answer.next();
   const Limits limits = limits_of(answer.found().base.data().observations);
   ASSERT_EQ(next.quantities.size(), limits.size());
   for (const std::string& name : next.quantities) {
@@ -119,7 +119,7 @@ TEST(LoopChoices, PressureIsALeverOfTheNextRun) {
 TEST(LoopChoices, TheNextRunTellsWhatLiesBeyondTheRuns) {
   const std::optional<LoopAnswer> proposing = proposing_answer(400e3);
   ASSERT_TRUE(proposing);
-  const NextTest& next = *proposing->next;
+  const NextRun& next = *proposing->next();
   ASSERT_THAT(next.quantities, testing::Contains("inflation_pressure"));
   ASSERT_TRUE(next.at.inflation_pressure);
   const Limits run = ranges_of(proposing->found().base.data().observations);

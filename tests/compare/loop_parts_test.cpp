@@ -256,6 +256,7 @@ TEST(SerialTest, SeesWarmAndColdDays) {
   const FittedModel warm_and_cold = settled(campaign);
   const SerialTest test = serial_test(warm_and_cold, 3999, 1);
   EXPECT_LT(test.p_value, 0.005);
+  EXPECT_NE(test.channel, sinkage);
   EXPECT_EQ(test.p_value, serial_test(warm_and_cold, 3999, 1).p_value);
   for (compare::Run& run : campaign.runs) *run.at.run += 20261101;  // numbered from a date
   EXPECT_EQ(test.p_value, serial_test(settled(campaign), 3999, 1).p_value);

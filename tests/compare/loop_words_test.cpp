@@ -1,8 +1,9 @@
 // What the loop's answer says in words, table and JSON, from numbers that the test put in.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "compare/loop/answer_words.hpp"
-#include "compare/loop/next_run_words.hpp"
 #include "compare/loop_fixture.hpp"
 
 namespace soilbin::compare {
@@ -95,38 +96,21 @@ TEST(HeldOutWords, SayThatAllInAllTheErrorRises) {
   EXPECT_EQ(held_out_words(validation).find("cross-validated error rises by 0.2 +- 6.2 noise variances a value"), 0u);
 }
 
+AcceptedEffect bulldozing() {
+  AcceptedEffect effect;
+  effect.choice.id = "bulldozing";
+  return effect;
+}
+
 // A channel is worse only for a model that takes effects; without any there is nothing that it could be worse for.
 TEST(WorseChannels, AreThoseOfAModelWithEffects) {
   LoopAnswer answer;
   answer.validation = mixed();
   EXPECT_TRUE(worse_channels(answer).empty());
   EXPECT_EQ(to_json(answer).at("worse").size(), 0u);
-  answer.stand_in.emplace_back();
-  answer.stand_in.back().choice.id = "bulldozing";
+  answer.outcome = UnknownEffect{{}, {bulldozing()}, {}, {}, {}};
   EXPECT_EQ(worse_channels(answer), std::vector<int>{drawbar_pull});
   EXPECT_EQ(to_json(answer).at("worse"), nlohmann::ordered_json({"drawbar_pull"}));
-}
-
-// The first sentences name gain, loss and what hardly changes; the table marks them.
-TEST(ErrorSentence, TellsGainLossAndWhatHardlyChanges) {
-  LoopAnswer answer;
-  answer.validation = mixed();
-  answer.effects.emplace_back();
-  answer.effects.back().choice.id = "bulldozing";
-  answer.verdict = Verdict::not_enough_data;
-  const auto parts = headline(answer, {});
-  ASSERT_EQ(parts.size(), 2u);
-  EXPECT_EQ(parts[1].about, "Error with the effect");
-  EXPECT_EQ(parts[1].text.find("The cross-validated RMS error rises for the "
-                               "drawbar pull (5.95 to 6.30 N; noise 5.00 N), falls for the sinkage (20.6 to 7.04 mm; "
-                               "noise 3.40 mm) and changes little for the torque (2.00 to 2.00 N m; noise 1.90 N m)."),
-            0u)
-      << parts[1].text;
-  const Table table = error_table(answer);
-  EXPECT_EQ(table.rows.at(0).at(3).tone, Tone::bad);
-  EXPECT_EQ(table.rows.at(1).at(3).tone, Tone::none);
-  EXPECT_EQ(table.rows.at(2).at(3).tone, Tone::good);
-  EXPECT_EQ(table.rows.at(2).at(4).text, "-66 %");
 }
 
 // What takes a column for mistaken comes before the verdict, which may be of that column.
@@ -166,7 +150,7 @@ TEST(ParametersTable, ShowsUnitsMeaningAndBounds) {
   layer.fitted = {"a", "d"};
   layer.ci95 = {{0.0, 50.0}, {0.0373, 0.045}};
   layer.at_bound = {true, false};
-  answer.stand_in = {layer};
+  answer.outcome = UnknownEffect{{}, {layer}, {}, {}, {}};
   const Table table = parameters_table(answer);
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_EQ(table.rows[0][0].text, "hard layer");
@@ -207,8 +191,99 @@ LoopAnswer two_sets() {
   Attribution found{FittedModel(data, predictor, fit), {}, {}, {}, {}};
   found.candidates.models = {both, one};
   found.candidates.sets = {{.ids = both.ids, .weight = 1.0}, {.ids = one.ids, .best_candidate = 1}};
-  answer.judgement = Judgement{.found = found, .before = {}, .choice = {}, .reason = {}};
+  answer.judged = Judgement{.found = found, .before = {}, .choice = {}, .reason = {}};
   return answer;
+}
+
+// The first sentences name gain, loss and what hardly changes; the table marks them.
+TEST(ErrorSentence, TellsGainLossAndWhatHardlyChanges) {
+  LoopAnswer answer = two_sets();
+  std::get<Judgement>(answer.judged).found.candidates.best = 1;
+  answer.validation = mixed();
+  answer.outcome = EffectFound{{}, {bulldozing()}};
+  const auto parts = headline(answer, {});
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[1].about, "Error with the effect");
+  EXPECT_EQ(parts[1].text.find("The cross-validated RMS error rises for the "
+                               "drawbar pull (5.95 to 6.30 N; noise 5.00 N), falls for the sinkage (20.6 to 7.04 mm; "
+                               "noise 3.40 mm) and changes little for the torque (2.00 to 2.00 N m; noise 1.90 N m)."),
+            0u)
+      << parts[1].text;
+  const Table table = error_table(answer);
+  EXPECT_EQ(table.rows.at(0).at(3).tone, Tone::bad);
+  EXPECT_EQ(table.rows.at(1).at(3).tone, Tone::none);
+  EXPECT_EQ(table.rows.at(2).at(3).tone, Tone::good);
+  EXPECT_EQ(table.rows.at(2).at(4).text, "-66 %");
+}
+
+// Every reason in words, with its numbers.
+TEST(ReasonWords, SayEachReason) {
+  Judgement judged = std::get<Judgement>(two_sets().judged);
+  judged.found.signatures.p_value = 0.0123, judged.found.signatures.simulations = 4000;
+  judged.found.candidates.best = 1;
+  const UnnamedEvidence misread{std::log(132.0), Unnamed::misread_condition};
+  const std::pair<Reason, const char*> all[] = {
+      {NoiseUnknown{2.5}, "the noise of a channel has only 2.5 degrees of freedom, too few to judge by"},
+      {NothingVisible{}, "no known effect would be visible in these data, whatever its size"},
+      {NoneStandsOut{}, "the strongest of all known effects reaches p = 0.0123"},
+      {NoGain{{.mean = 0.1, .std_error = 0.2}},
+       "the best effect fits (p = 0.012) but does not improve cross-validated predictions (gain in ln density a "
+       "condition 0.1 +- 0.2)"},
+      {Refuted{.without = 2.0, .with = 2.5},
+       "the best effect fits (p = 0.012), but with the effects that are found without them conditions left out are "
+       "predicted worse: 2.5 standard deviations of the noise, root mean square, in place of 2"},
+      {StandsOut{}, "p = 0.012 among the whole catalogue"},
+      {NoneAccepted{misread},
+       "no known effect is accepted (not explained by noise (p = 0.012)), but a function of the conditions unlike any "
+       "of them explains the residual 130 times better than noise: most like a slip or load that is not the one "
+       "written"},
+      {NoneAccepted{LackOfFit{.p_value = 0.001}},
+       "no known effect is accepted (not explained by noise (p = 0.012)), but the residual is more than noise (p = "
+       "0.001)"},
+      {NoneAccepted{RerunTest{.p_value = 0.001}},
+       "no known effect is accepted (not explained by noise (p = 0.012)), but setpoints deviate more than their "
+       "re-runs "
+       "scatter (p = 0.001)"},
+      {NoneAccepted{SerialTest{.p_value = 0.001, .channel = torque}},
+       "no known effect is accepted (not explained by noise (p = 0.012)), but the residuals of the torque are alike in "
+       "runs made one after the other (p = 0.001)"},
+      {MoreThanNamed{UnexplainedShare{0.42}},
+       "the residual is real (not explained by noise (p = 0.012)), but the best set of known effects leaves 42 % of "
+       "it"},
+      {MoreThanNamed{misread},
+       "the residual is real (not explained by noise (p = 0.012)), and after the best set of known effects a function "
+       "of the conditions unlike any of them explains the rest 130 times better than noise: most like a slip or load "
+       "that is not the one written"},
+      {MoreThanNamed{RerunTest{.p_value = 0.001}},
+       "the residual is real (not explained by noise (p = 0.012)), and after the best set of known effects setpoints "
+       "still deviate more than their re-runs scatter (p = 0.001)"},
+      {BaseModelWrong{},
+       "the base model is wrong by a smooth function of load and slip; beside that slip sinkage is strongest (not "
+       "explained by noise (p = 0.012))"}};
+  for (const auto& [reason, words] : all) {
+    judged.reason = reason;
+    EXPECT_EQ(reason_words(judged), words);
+  }
+  EXPECT_EQ(reason_words(TooFewValues{12, 4, 8}), "12 measured values of 4 conditions are too few for 8 soil values");
+}
+
+// A reason is of one verdict, and proxies are used where conditions left out do not refuse them.
+TEST(Judgement, UsesACandidateThatStandsUnlessTheReasonSaysNo) {
+  Judgement judged = std::get<Judgement>(two_sets().judged);
+  judged.reason = StandsOut{};
+  EXPECT_EQ(judged.verdict(), Verdict::effect_found);
+  EXPECT_FALSE(judged.uses_candidate()) << "there is none";
+  judged.choice.emplace().stands = true;
+  EXPECT_TRUE(judged.uses_candidate());
+  judged.reason = MoreThanNamed{};
+  EXPECT_EQ(judged.verdict(), Verdict::unknown_effect);
+  EXPECT_TRUE(judged.uses_candidate());
+  for (const Reason& refused : {Reason(NoneAccepted{}), Reason(Refuted{}), Reason(NoneStandsOut{})}) {
+    judged.reason = refused;
+    EXPECT_FALSE(judged.uses_candidate());
+  }
+  judged.choice->stands = false, judged.reason = MoreThanNamed{};
+  EXPECT_FALSE(judged.uses_candidate());
 }
 
 // A set's forms stand in the order of its ids, whichever was fitted first.
@@ -226,9 +301,11 @@ TEST(CandidatesTable, NamesFormsInTheOrderOfTheEffects) {
 
 TEST(SoilTable, SaysWhatAValueMeansAndWhetherItIsAtItsBound) {
   LoopAnswer answer;
-  answer.soil_shifts = {{"stress_angle_c2", {-0.5, 0.1}, {0.2, 0.1}, 0.2, true},
-                        {"exponent", {0.9, 0.1}, {1.0, 0.1}, 0.3},
-                        {"cohesion", {1000, 290}, {1010, 295}, 300}};  // the runs tell next to nothing of it
+  WithCandidates with;
+  with.soil_shifts = {{"stress_angle_c2", {-0.5, 0.1}, {0.2, 0.1}, 0.2, true},
+                      {"exponent", {0.9, 0.1}, {1.0, 0.1}, 0.3},
+                      {"cohesion", {1000, 290}, {1010, 295}, 300}};  // the runs tell next to nothing of it
+  answer.outcome = EffectFound{std::move(with), {}};
   const Table table = soil_table(answer);
   EXPECT_EQ(table.rows[0].front().note, "c2 of theta_m = (c1 + c2 |s|) theta_1");
   EXPECT_EQ(table.rows[0].back().text, "no: at its bound");
@@ -239,7 +316,7 @@ TEST(SoilTable, SaysWhatAValueMeansAndWhetherItIsAtItsBound) {
 /// As if something without a name depended on the slip.
 LoopAnswer unknown_by_slip() {
   LoopAnswer answer = two_sets();
-  answer.verdict = Verdict::unknown_effect;
+  answer.outcome = UnknownEffect{};
   answer.dependences_before = {
       {.channel = drawbar_pull, .variable = "slip", .share = 0.6, .p_value = 0.001, .false_discovery_rate = 0.01}};
   return answer;
@@ -262,19 +339,26 @@ TEST(NextRunTable, OfAnUnknownEffectVariesWhatItDependsOnAlone) {
   EXPECT_EQ(table.rows.front().back().text, "2");
 }
 
+// A condition whose limit is given is not asked for again.
+TEST(NextRun, AsksForNoLimitThatIsGiven) {
+  NextRun next;
+  next.given = {{"load", {0.0, 1.0}}}, next.beyond = {"load", "slip"};
+  EXPECT_EQ(beyond_what_is_known(next), std::vector<std::string>{"slip"});
+}
+
 // Candidates of which none explains the data need no run between them where they are far apart already.
 TEST(NextRun, BetweenNamedSetsIsNotProposedWhereTheyAreFarApart) {
   LoopAnswer answer = unknown_by_slip();
   answer.dependences_before.clear();
-  answer.next = NextTest{};
-  answer.next->separates = {{"bulldozing", "slip_sinkage"}, {"slip_sinkage"}};
-  auto& sets = answer.judgement->found.candidates.sets;
-  answer.ambiguity_set = sets;
+  WithCandidates with;
+  with.next.emplace().separates = {{"bulldozing", "slip_sinkage"}, {"slip_sinkage"}};
+  with.ambiguity_set = answer.found().candidates.sets;
   for (const double behind : {2.0, 12.0}) {
-    answer.ambiguity_set[1].log_evidence = sets[1].log_evidence = -behind;
+    with.ambiguity_set[1].log_evidence = -behind;
+    answer.outcome = UnknownEffect{with, {}, {}, {}, {}};
     EXPECT_EQ(proposes_next(answer), behind < 4.6) << behind;
   }
-  answer.verdict = Verdict::effect_found;
+  answer.outcome = EffectFound{with, {}};
   EXPECT_TRUE(proposes_next(answer));
 }
 

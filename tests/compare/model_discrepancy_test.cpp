@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
@@ -117,11 +118,11 @@ void expect_same_shares(const LoopAnswer& answer) {
   const auto sets = to_json(answer).at("ambiguity_set");
   const Table table = candidates_table(answer);
   const std::string words = all_words(answer);
-  const std::size_t decided = answer.ambiguity_set.size();
-  ASSERT_EQ(sets.size(), decided + answer.alternative_sets.size());
+  const std::size_t decided = answer.ambiguity_set().size();
+  ASSERT_EQ(sets.size(), decided + (answer.second() ? answer.second()->sets.size() : 0));
   double sum = 0.0;
   for (std::size_t i = 0; i < decided; ++i) {
-    const WeightedSet& w = answer.ambiguity_set[i];
+    const WeightedSet& w = answer.ambiguity_set()[i];
     SCOPED_TRACE(joined(w.ids));
     sum += w.weight;
     EXPECT_EQ(sets.at(i).at("effects"), nlohmann::ordered_json(w.ids));
@@ -131,7 +132,7 @@ void expect_same_shares(const LoopAnswer& answer) {
     EXPECT_EQ(table.rows.at(i).at(0).text, named_effects(w.ids));
     EXPECT_EQ(table.rows.at(i).at(0).note, joined(w.ids) == named_effects(w.ids) ? "" : joined(w.ids));
     EXPECT_EQ(table.rows.at(i).at(2).text, share);
-    const double listed = answer.verdict == Verdict::unknown_effect ? 0.05 : 0.005;  // smaller ones are counted
+    const double listed = answer.verdict() == Verdict::unknown_effect ? 0.05 : 0.005;  // smaller ones are counted
     const bool said = decided > 1 && (i == 0 || w.weight >= listed);
     EXPECT_EQ(words.find(fmt::format("{} ({})", named_effects(w.ids), share)) != std::string::npos, said) << words;
   }
@@ -148,9 +149,11 @@ void expect_the_decided_model(const Campaign& campaign, const LoopAnswer& answer
   const Case model = resolved_model(campaign, answer);
   std::set<std::string> saved;
   for (const EffectChoice& choice : model.study.models.front().effects) saved.insert(choice.id);
-  EXPECT_EQ(saved, ids_of(answer.stand_in));
-  EXPECT_EQ(saved.erase("learned"), answer.learned.empty() ? 0U : 1U);
-  EXPECT_EQ(saved, answer.judgement->takes_best() ? answer.ambiguity_set.front().ids : std::set<std::string>());
+  EXPECT_EQ(saved, ids_of(answer.proxy_effects()));
+  EXPECT_EQ(saved.erase("learned"), answer.learned().empty() ? 0U : 1U);
+  EXPECT_TRUE(saved.empty() || saved == answer.ambiguity_set().front().ids);
+  const HeldOutErrors& all = answer.validation.overall;
+  EXPECT_EQ(answer.uses_effects(), all.after < all.before);
 }
 
 // Beside the odd soil a second pass bears more. Read by the base model alone, named effects are bent to make up for the
@@ -159,16 +162,13 @@ void expect_the_decided_model(const Campaign& campaign, const LoopAnswer& answer
 TEST(SlowModelDiscrepancy, ShowsTheEffectBesideAnOddSoil) {
   const Campaign campaign = odd_soil({{"multipass", "", {{"a", 0.3}}}});
   const LoopAnswer answer = asked(campaign);
-  ASSERT_EQ(answer.verdict, Verdict::unknown_effect) << answer.reason;
-  ASSERT_TRUE(answer.decided_with_model_discrepancy());
-  ASSERT_TRUE(answer.judgement && answer.found().candidates.best);
+  ASSERT_EQ(answer.verdict(), Verdict::unknown_effect);
+  ASSERT_TRUE(answer.second() && answer.second()->decides);
+  EXPECT_TRUE(std::holds_alternative<BaseModelWrong>(answer.judgement()->reason));
+  ASSERT_TRUE(answer.judgement() && answer.found().candidates.best);
   EXPECT_EQ(answer.found().best().ids, std::set<std::string>{"multipass"});
   EXPECT_LT(answer.found().signatures.p_value, 0.01);
-  EXPECT_EQ(answer.ambiguity_set.front().ids, std::set<std::string>{"multipass"});
-  EXPECT_NE(all_words(answer).find(
-                "The base model is wrong by a smooth function of load and slip; beside that multipass is strongest"),
-            std::string::npos)
-      << all_words(answer);
+  EXPECT_EQ(answer.ambiguity_set().front().ids, std::set<std::string>{"multipass"});
   expect_same_shares(answer);
   expect_the_decided_model(campaign, answer);
   const auto json = to_json(answer);
@@ -185,9 +185,9 @@ TEST(SlowModelDiscrepancy, ShowsTheEffectBesideAnOddSoil) {
 // What the list puts first need not fit best: then the words say why it is taken.
 TEST(SlowModelDiscrepancy, SaysWhyASetIsTakenThatAnotherOneOutweighs) {
   const LoopAnswer answer = asked(odd_soil({}));
-  const WeightedSet& taken = answer.ambiguity_set.front();
+  const WeightedSet& taken = answer.ambiguity_set().front();
   const WeightedSet& heaviest =
-      *std::max_element(answer.ambiguity_set.begin(), answer.ambiguity_set.end(),
+      *std::max_element(answer.ambiguity_set().begin(), answer.ambiguity_set().end(),
                         [](const WeightedSet& a, const WeightedSet& b) { return a.weight < b.weight; });
   ASSERT_LT(taken.weight, heaviest.weight);
   EXPECT_NE(all_words(answer).find(fmt::format("The model uses {}: what {} adds does not improve predictions.",
@@ -200,11 +200,11 @@ TEST(SlowModelDiscrepancy, SaysWhyASetIsTakenThatAnotherOneOutweighs) {
 TEST(SlowModelDiscrepancy, NamesNothingBesideNothingButAnOddSoil) {
   const Campaign campaign = odd_soil({});
   const LoopAnswer answer = asked(campaign);
-  ASSERT_EQ(answer.verdict, Verdict::unknown_effect) << answer.reason;
-  ASSERT_TRUE(answer.second);
-  EXPECT_FALSE(answer.second->decides);
-  EXPECT_FALSE(answer.second->alternative.candidates.best);
-  EXPECT_GT(answer.second->alternative.signatures.p_value, 0.05);
+  ASSERT_EQ(answer.verdict(), Verdict::unknown_effect);
+  ASSERT_TRUE(answer.second());
+  EXPECT_FALSE(answer.second()->decides);
+  EXPECT_FALSE(answer.second()->alternative.candidates.best);
+  EXPECT_GT(answer.second()->alternative.signatures.p_value, 0.05);
   expect_same_shares(answer);
   expect_the_decided_model(campaign, answer);
   EXPECT_EQ(to_json(answer).at("beside_inadequacy").at("effects").size(), 0u);

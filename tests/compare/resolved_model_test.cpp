@@ -1,6 +1,8 @@
 // The case that a loop saves: one condition for each that was run, however often.
 #include <gmock/gmock.h>
 
+#include "compare/loop/answer_words.hpp"
+
 namespace soilbin::compare {
 namespace {
 

@@ -2,11 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "compare/report/table.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/test_design/effect_shapes.hpp"
 #include "compare/test_design/rig_limits.hpp"
@@ -51,19 +49,7 @@ struct TestDesign {
 /// that leave nothing to choose.
 ///
 ///     const TestDesign design = design_test(campaign, {.runs = 24, .limits = {{"load", {60, 140}}}});
-///     write_runs(design.runs);   // runs.csv, to fill in
+///     rows_to_fill_in(design);   // runs.csv (planned_runs_words.hpp)
 TestDesign design_test(const Campaign& campaign, const DesignOptions& options);
-
-/// For people: what the plan is expected to tell, in two or three sentences.
-std::vector<std::string> in_sentences(const TestDesign& design);
-/// The runs; each effect with what it is most easily taken for, by the plan and by the sweep.
-Table runs_table(const TestDesign& design);
-Table pairs_table(const TestDesign& design);
-
-/// The rows as a CSV in the campaign's own columns and units, the channels to measure empty.
-std::string rows_to_fill_in(const TestDesign& design);
-
-/// soilbin-design/1.
-nlohmann::ordered_json to_json(const TestDesign& design);
 
 }  // namespace soilbin::compare

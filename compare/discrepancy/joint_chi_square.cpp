@@ -1,5 +1,4 @@
-#include "compare/discrepancy/joint_test.hpp"
-
+// The joint test of a comparison.
 #include <fmt/core.h>
 
 #include <Eigen/Dense>

@@ -11,7 +11,7 @@
 
 namespace soilbin::compare {
 
-struct NextTest {
+struct NextRun {
   OperatingCondition at;
   std::vector<std::string> quantities;  ///< names (ConditionView) of the conditions that matter: those that limits hold
   Limits given;                         ///< what the rig was said to reach; elsewhere the campaign bounds it
@@ -31,6 +31,6 @@ struct NextTest {
 /// (is_settled): then nothing. limits: where nothing is given, what was run, and where no condition there decides in
 /// thresholds::few_runs, limits_of the observations and the wheel; no condition leaves what was run where it
 /// decides as much there. Nothing where no condition within limits sets them apart in thresholds::max_runs.
-std::optional<NextTest> next_test(const Attribution& found, const Limits& limits);
+std::optional<NextRun> next_run(const Attribution& found, const Limits& limits);
 
 }  // namespace soilbin::compare

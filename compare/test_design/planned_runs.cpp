@@ -1,4 +1,4 @@
-#include "compare/test_design/test_design.hpp"
+#include "compare/test_design/planned_runs.hpp"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,5 @@
-// A test's design for people and for programs.
+#include "compare/test_design/planned_runs_words.hpp"
+
 #include <fmt/core.h>
 
 #include <cmath>
@@ -9,7 +10,6 @@
 #include "compare/measured/run_columns.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/test_design/test_design.hpp"
 #include "scenario/nearest_word.hpp"
 
 namespace soilbin::compare {

@@ -1,14 +1,14 @@
 // A designed test: the shapes' distances by hand, what every plan must vary, what no plan may fall below.
-#include "compare/test_design/test_design.hpp"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "compare/loop_fixture.hpp"
 #include "compare/measured/condition_views.hpp"
+#include "compare/test_design/planned_runs_words.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

@@ -1,4 +1,4 @@
-#include "compare/test_design/next_test.hpp"
+#include "compare/test_design/next_run.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// A candidate, or the base model, that takes part.
+/// A candidate, or the base model, that the next run should separate from others.
 struct Contender {
   std::set<std::string> ids;
   FittedModel model;
@@ -69,7 +69,7 @@ double squared_distance(const RunForecast& a, const RunForecast& b, const NoiseF
   return gap.dot(Ldlt(spread).solve(gap));
 }
 
-/// Who takes part, the best one first; it alone where what stands behind it is excluded already.
+/// Sets that the next run should separate, best first; the best one alone where all others are excluded already.
 std::vector<Contender> contenders(const Attribution& found) {
   const Candidates& all = found.candidates;
   std::vector<Contender> contenders;
@@ -232,7 +232,7 @@ void refine(ConditionSearch& search, const Limits& limits) {
 
 }  // namespace
 
-std::optional<NextTest> next_test(const Attribution& found, const Limits& given) {
+std::optional<NextRun> next_run(const Attribution& found, const Limits& given) {
   const Dataset& data = found.base.data();
   Limits limits = given;  // what is given comes before what the campaign spans
   limits.merge(limits_of(data.observations, data.campaign->wheel));
@@ -251,13 +251,13 @@ std::optional<NextTest> next_test(const Attribution& found, const Limits& given)
   if (!best || best->second.runs > thresholds::few_runs) best = search_within(limits);
   if (!best || best->second.runs > thresholds::max_runs) return std::nullopt;
   const auto& [at, prospect] = *best;
-  NextTest next{.at = at,
-                .quantities = {},
-                .given = given,
-                .beyond = beyond(limits, data, at),
-                .separates = {contest.ids(0), contest.ids(prospect.against)},
-                .runs = static_cast<int>(prospect.runs),
-                .distance = prospect.distance};
+  NextRun next{.at = at,
+               .quantities = {},
+               .given = given,
+               .beyond = beyond(limits, data, at),
+               .separates = {contest.ids(0), contest.ids(prospect.against)},
+               .runs = static_cast<int>(prospect.runs),
+               .distance = prospect.distance};
   for (const auto& [name, range] : limits) next.quantities.push_back(name);
   return next;
 }
