@@ -12,8 +12,9 @@
 #include "compare/report/number_text.hpp"
 #include "compare/report/plot.hpp"
 #include "compare/sweep/answer_sheets.hpp"
-#include "compare/telling/answer_report.hpp"
+#include "compare/sweep/declared_tire.hpp"
 #include "compare/sweep/wheel_limits.hpp"
+#include "compare/telling/answer_report.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::cli {
@@ -67,6 +68,8 @@ Case swept_over(Case question, const std::pair<double, double>& slips) {
 
 ServedAnswer answer_to(Asked asked, const std::pair<double, double>& slips) {
   ServedAnswer one{std::move(asked), {}, {}, {}};
+  Case& question = one.asked.question;
+  one.notes = one.asked.base_model ? compare::without_effects(question, {}) : compare::as_declared(question, {});
   one.swept = swept_over(one.asked.question, slips);
   const compare::Progress until_asked = [](std::size_t, std::size_t) {
     if (interrupt_asked()) throw Interrupted();

@@ -128,6 +128,7 @@ Asked Setup::put_together(const std::vector<Flag>& query) const {
     throw InputError(refusal_of(error, "estimate "));
   }
   asked.question = question.ask(place_);
+  asked.base_model = question.switches_effects_off();
   return asked;
 }
 

@@ -19,6 +19,7 @@ using Flag = std::pair<std::string, std::string>;
 struct Asked {
   Case question;
   std::vector<std::string> words;
+  bool base_model = false;  ///< every effect was switched off by name
 };
 
 class Setup {

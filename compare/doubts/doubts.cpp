@@ -14,7 +14,6 @@
 #include "compare/doubts/column_doubts.hpp"
 #include "compare/doubts/declared_doubts.hpp"
 #include "compare/doubts/grain_doubts.hpp"
-#include "compare/doubts/pull_without_slip.hpp"
 #include "compare/doubts/row_doubts.hpp"
 #include "compare/doubts/unused_inputs.hpp"
 #include "compare/report/number_text.hpp"
@@ -130,6 +129,23 @@ std::string taken_as_rigid(const Scenario& scenario, const Answer& answer) {
   if (std::abs(pull - rigid) < hardly * answer.at.load) return "";
   return fmt::format("{}: as a rigid wheel it pulls {}, with --effect tire_flexibility {}", pressure, newtons(rigid),
                      newtons(pull));
+}
+
+/// A wheel that pulls more than 15 % of its load at a slip of up to 1 %, level or on a slope; "" where it doesn't. Even
+/// without slip the model shears the soil by up to r (theta_1 - sin theta_1) under the wheel, and a large or deep one
+/// by many times K. Wheels that pull slip.
+std::string pull_without_slip(const Scenario& scenario, const Answer& answer) {
+  constexpr double no_slip = 0.01, much = 0.15;  // chosen; the share is of the load
+  const OperatingCondition& at = answer.at;
+  const double beside_slope = answer.result->drawbar_pull.value + at.load * std::sin(at.longitudinal_incline);
+  const double share = beside_slope / at.load, entry = answer.result->entry_angle;
+  if (std::abs(at.slip) > no_slip || !(share > much) || !(entry > 0.0)) return "";
+  return fmt::format(
+      "the wheel pulls {:.2g} of its load at {}: even there the model shears the soil by up to {:.3g} mm under a "
+      "radius "
+      "of {:.4g} mm, and K is {:.3g} mm. A wheel that pulls slips: take pulls at less than 5 % slip as upper bounds",
+      share, in_words(at), 1000 * scenario.tire.radius * (entry - std::sin(entry)), 1000 * scenario.tire.radius,
+      1000 * scenario.soil.semi_empirical->shear_modulus.value);
 }
 
 /// What the analytic wheel answers at one condition.

@@ -100,6 +100,7 @@ void make_smooth(Case& question, std::vector<std::string>& notes) {
     throw InputError(
         "--no-lugs: grains meet the tire with its lugs\n  hint: --model bekker_wong, or a tire without lugs");
   tire.lugs = {};
+  std::erase_if(tire.sources, [](const auto& source) { return source.first.starts_with("lugs"); });
 }
 
 /// A tire that nobody described, only named by its size; "" where radius or width are given beside it.

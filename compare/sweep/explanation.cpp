@@ -268,7 +268,8 @@ Step largest_thrust(const Facts& f) {
   const double most = f.soil.cohesion * area + f.normal_load * std::tan(f.soil.friction_angle);
   std::string remark = fmt::format("the model's thrust is {:.4g} N", thrust);
   if (faces != 0.0) remark += fmt::format(", {:.4g} N of it by the faces of the lugs", faces);
-  if (thrust > most * (1 + 1e-9)) remark += ": more, as an effect raises the soil's strength";
+  constexpr double of_a_flat_contact = 0.01;  // by so much a curved one may press with more than W_n
+  if (thrust > most * (1 + of_a_flat_contact)) remark += ": more, as an effect raises the soil's strength";
   return {"largest thrust of this soil",
           lugs > 0.0 ? "c A + W_n tan phi, A = b L (r + h)/r over the contact's length L"
                      : "c A + W_n tan phi, A = b L over the contact's length L",

@@ -48,7 +48,7 @@ std::string efficiency_in_percent(const TractionResult& result) {
 }
 
 /// Why a pull of the analytic model at 0 % slip on the level is not 0, which readers expect; none where there is none.
-std::vector<std::string> pull_without_slip(const ModelAnswers& model) {
+std::vector<std::string> why_it_pulls_without_slip(const ModelAnswers& model) {
   const bool there =
       model.choice.model == ModelKind::bekker_wong && std::ranges::any_of(model.answers, [](const Answer& answer) {
         return answer.result && std::abs(answer.at.slip) < 1e-9 && answer.at.longitudinal_incline == 0.0;
@@ -141,7 +141,7 @@ std::vector<ReportPart> answer_parts(const ModelAnswers& model, const Answer& an
   for (const PrintedValue& one : printed_values(*answer.result))
     values.all.emplace_back(one.name, one.value + (one.unit.empty() ? "" : " " + one.unit));
   parts.push_back({std::move(values)});
-  parts.push_back({Sentences(pull_without_slip({model.choice, {answer}, {}}))});
+  parts.push_back({Sentences(why_it_pulls_without_slip({model.choice, {answer}, {}}))});
   return parts;
 }
 
@@ -174,7 +174,7 @@ std::vector<ReportPart> study_parts(const std::vector<ModelAnswers>& study) {
     parts.push_back({std::move(table)});
     if (!unsolved.empty()) parts.push_back({Sentences(unsolved)});
   }
-  if (!study.empty()) parts.push_back({Sentences(pull_without_slip(study.front()))});
+  if (!study.empty()) parts.push_back({Sentences(why_it_pulls_without_slip(study.front()))});
   return parts;
 }
 

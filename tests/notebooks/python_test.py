@@ -138,24 +138,25 @@ class Warnings(unittest.TestCase):
         self.assertTrue(all(one.category is soilbin.SoilbinWarning and one.filename == __file__ for one in caught))
 
     def test_a_tire_with_a_pressure_is_flexible_or_rigid_as_the_commands(self):
-        pumped = dict(load=37.5e3, slip=0.2, inflation_pressure=150e3)
+        tire, load = "truck-335-65r22", 20e3
+        words = ("--tire", tire, "--soil", "sandy-loam", "--load", "20kN")
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            wheel = soilbin.Scenario(self.wheel.tire.replace(inflation_pressure=150e3), "sandy-loam")
-            for words, rigid in ((), False), (("--rigid",), True):
-                pull = command("estimate", *self.WORDS, "--slip", "20%", *words)["rows"][0]["drawbar_pull"]
-                self.assertEqual(soilbin.estimate(wheel, load=37.5e3, slip=0.2, rigid=rigid).drawbar_pull.value, pull)
-                frame = soilbin.sweep(wheel, soilbin.conditions(load=37.5e3, slip=0.2), progress=None, rigid=rigid)
+            wheel = soilbin.Scenario(tire, "sandy-loam")
+            for flags, left_out in ((), {}), (("--rigid",), {"rigid": True}), (("--no-lugs",), {"no_lugs": True}):
+                pull = command("estimate", *words, "--slip", "20%", *flags)["rows"][0]["drawbar_pull"]
+                self.assertEqual(soilbin.estimate(wheel, load=load, slip=0.2, **left_out).drawbar_pull.value, pull)
+                frame = soilbin.sweep(wheel, soilbin.conditions(load=load, slip=0.2), progress=None, **left_out)
                 self.assertEqual(frame.drawbar_pull[0], pull)
-                explained = bekker_wong.explain(wheel, load=37.5e3, slip=0.2, rigid=rigid)
+                explained = bekker_wong.explain(wheel, load=load, slip=0.2, **left_out)
                 self.assertEqual(explained.result.drawbar_pull.value, pull)
-                slope = command("limits", *self.WORDS, *words)["rows"][0]["steepest_slope"]
-                self.assertEqual(bekker_wong.steepest_slope(wheel, load=37.5e3, rigid=rigid), slope)
+                slope = command("limits", *words, *flags)["rows"][0]["steepest_slope"]
+                self.assertEqual(bekker_wong.steepest_slope(wheel, load=load, **left_out), slope)
             with self.assertRaisesRegex(soilbin.InputError, "a rigid wheel has no inflation pressure"):
-                soilbin.estimate(self.wheel, rigid=True, **pumped)
-        model = soilbin.bekker_wong.BekkerWong().evaluate(wheel, AT.replace(load=37.5e3, slip=0.2))
-        self.assertEqual(model.drawbar_pull.value, command("estimate", *self.WORDS, "--slip", "20%", "--rigid")["rows"][0]["drawbar_pull"],
-                         "a model keeps to the declared effects")
+                soilbin.estimate(self.wheel, rigid=True, load=37.5e3, slip=0.2, inflation_pressure=150e3)
+        model = soilbin.bekker_wong.BekkerWong().evaluate(wheel, AT.replace(load=load, slip=0.2))
+        bare = command("estimate", *words, "--slip", "20%", "--effect", "none")["rows"][0]["drawbar_pull"]
+        self.assertEqual(model.drawbar_pull.value, bare, "a model keeps to the declared effects")
 
     def test_a_frame_keeps_them(self):
         known = command("estimate", *self.WORDS, "--slip", "10%,20%")["warnings"]

@@ -311,7 +311,7 @@ class StartAndStop(unittest.TestCase):
                 told = json.loads(soilbin(*shlex.split(served["command"])[1:], "--json").stdout)
                 self.assertEqual(served["rows"], told["rows"])
                 self.assertEqual([(r["load"], r["slip"], r["label"]) for r in told["rows"]],
-                                 [(60, 0.35, "bekker_wong + exit_angle")])
+                                 [(60, 0.35, "bekker_wong + exit_angle + lug_thrust")])
 
     def test_a_case_of_grains_starts_the_analytic_wheel(self):
         with Server("code-to-code-wheel") as server:

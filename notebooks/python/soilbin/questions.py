@@ -146,7 +146,8 @@ def run_study(case: Union[Case, str], progress: Progress = "shown", *, rigid: bo
     case: a Case, the name of a study in the library, or the path of a YAML file. Grains take minutes a condition: ask
     soilbin.dem.SoilBin for them. A tire with an inflation pressure is flexible or `rigid` as in estimate.
     """
-    question, notes = _soilbin.as_asked(_soilbin.find_case(case) if isinstance(case, str) else case, rigid, no_lugs)
+    question, notes = _soilbin.study_as_asked(
+        _soilbin.find_case(case) if isinstance(case, str) else case, rigid, no_lugs)
     tell(notes)
     frames: list[pd.DataFrame] = []
     said: list[str] = list(notes)
