@@ -77,10 +77,10 @@ enum class Role {
 
 /// The largest box of conditions in which the models agree, and what it rests on.
 struct AgreementClause {
-  std::vector<Role> roles;                 ///< of each factor
-  std::vector<double> lower, upper;        ///< of each factor [SI]
-  int rows = 0;                            ///< that were run in the box
-  double largest = 0.0;                    ///< |difference| among them, share of the load
+  std::vector<Role> roles;                   ///< of each factor
+  std::vector<double> lower, upper;          ///< of each factor [SI]
+  int rows = 0;                              ///< that were run in the box
+  double largest = 0.0;                      ///< |difference| among them, share of the load
   std::optional<Eigen::VectorXd> witness{};  ///< the row with it
 };
 

@@ -72,8 +72,8 @@ inline constexpr double longest_way_on_patch = 30, shortest_way_on_patch = 4;
 /// By which a patch advances: as thick as what is held at its ends [m].
 inline double slab_of_patch(const BedRecipe& recipe) { return 4 * recipe.grading.factor * recipe.soil.radius_max; }
 
-/// The way that the axle may go [m]; on a moving patch the longest way that it may take. Throws InputError for a bed too short
-/// for the way or too narrow, and for an axle that least_room keeps from where it begins or ends.
+/// The way that the axle may go [m]; on a moving patch the longest way that it may take. Throws InputError for a bed
+/// too short for the way or too narrow, and for an axle that least_room keeps from where it begins or ends.
 double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig);
 
 /// Throws InputError for what a moving patch does not have: a later pass over the rut, which it has left behind.
