@@ -40,6 +40,7 @@ int explain(const Question& inputs, const TireFlags& tire, const OutputFlags& as
       answered.push_back({choice, {{at, explanation.result, ""}}});
     }
   }
+  report.add(compare::WarningsHere());
   Table sources = compare::sources_table(question.scenario);
   sources.caption = "Where the values come from";
   report.add(std::move(sources));

@@ -71,7 +71,9 @@ class PageWriter {
       std::visit([&](const auto& content) { tell(content); }, part.content);
     }
   }
-  void tell(const Sentences& sentences) { page_.backed_summary(sentences.all); }
+  void tell(const Sentences& sentences) {
+    if (!sentences.all.empty()) page_.backed_summary(sentences.all);
+  }
   void tell(const Prose& prose) {
     for (const std::string& paragraph : prose.paragraphs) page_.paragraph(paragraph);
   }

@@ -61,7 +61,7 @@ std::vector<std::string> why_it_pulls_without_slip(const ModelAnswers& model) {
 std::string only_load(const std::vector<OperatingCondition>& conditions) {
   const double load = conditions.front().load;
   return std::ranges::all_of(conditions, [&](const OperatingCondition& at) { return at.load == load; })
-             ? fmt::format("load {:.6g} N", load)
+             ? "load " + newtons(load, 6)
              : "";
 }
 
@@ -193,6 +193,9 @@ Report report_on(const Case& question, const std::vector<ModelAnswers>& study) {
       for (ReportPart& part : answer_parts(model, model.answers.front())) parts.push_back(std::move(part));
   }
   report.parts.insert(report.parts.end(), std::make_move_iterator(parts.begin()), std::make_move_iterator(parts.end()));
+  if (const std::string errors = errors_in_words(question); !errors.empty())
+    report.add(Prose{{errors}}, Told::to_look_at);
+  report.add(WarningsHere());
   report.sheet = [&] {
     Sheet sheet = plot_of_study(question, study);
     sheet.title = title_of(question);

@@ -208,6 +208,9 @@ Report report_on(const Case& question, const std::vector<WheelLimits>& answers,
       report.add(Sentences(std::vector<BackedSentence>{{table.caption, "no solution: " + answer.error}}));
     }
   }
+  if (const std::string errors = errors_in_words(question); !errors.empty())
+    report.add(Prose{{errors}}, Told::to_look_at);
+  report.add(WarningsHere());
   report.sheet = [&] { return limits_sheet(question, answers); };
   report.add("Against the slope", Figure(report.sheet, "Bands: one standard error of the largest pull."));
   report.csv = [&] { return limits_csv(answers, at_limits, remarks_about(question.scenario)); };
