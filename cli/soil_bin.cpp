@@ -128,7 +128,7 @@ void check_threads(int threads) {
     throw InputError(fmt::format("--threads: 0 (one a core) .. {}", dem::most_threads()));
 }
 
-/// Of --engine and --ranks. The program lies beside this one; SOILBIN_MPIRUN says what starts it.
+/// The worker that --engine and --ranks ask for. The program lies beside this one; SOILBIN_MPIRUN says what starts it.
 std::optional<dem::LammpsWorker> lammps_of(const SoilBinFlags& flags) {
   if (flags.engine != "lammps") {
     if (flags.settled_by == "lammps") throw InputError("--settled-by lammps also needs --engine lammps");
@@ -219,8 +219,10 @@ std::optional<bool> SoilBinFlags::tests_step() const {
   return half_step.empty() ? std::nullopt : std::optional(half_step == "yes");
 }
 
-std::vector<compare::AskedRun> SoilBinFlags::runs(const Case& question) const {
-  std::vector<compare::AskedRun> list = compare::runs_of(question, settings_of(*this), packings, tests_step());
+std::vector<compare::RunSpec> SoilBinFlags::runs(const Case& question) const {
+  const dem::DemSettings settings = settings_of(*this);
+  std::vector<compare::RunSpec> list = compare::specs(question, settings, packings, tests_step());
+  compare::check_runs(question, settings);
   return shard.empty() ? list : compare::shard_of(list, compare::parse_shard(shard));
 }
 

@@ -59,7 +59,7 @@ double rerun_sd(const std::vector<Gathered>& gathered, std::size_t channel) {
 struct ScaledResidual {
   double off = 0.0, simulated_sd = 0.0, measured_sd = 0.0, weight = 0.0;
 };
-/// Of a candidate: a setpoint each, a channel each; without weight where there is nothing to compare.
+/// Misses of a candidate: a setpoint each, a channel each; without weight where there is nothing to compare.
 using ScaledResiduals = std::vector<OfChannels<ScaledResidual>>;
 
 ScaledResiduals scaled_residuals_of(const std::vector<Setpoint>& setpoints, const std::vector<Answer>& answers,

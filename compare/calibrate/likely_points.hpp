@@ -22,7 +22,7 @@ class LikelyPoints {
   /// Of cloud and tried points, the one with the largest chance; where no chance is above 1e-9, the one nearest to the
   /// targets by chi square. A point whose nearest run gave no result is not proposed.
   Candidate likeliest() const;
-  /// The same of points that were run with a result.
+  /// The likeliest of the points that were run with a result.
   Candidate likeliest_tried() const;
   /// At most `count` points whose predictions are near every target: the likeliest, then each time the one farthest
   /// from those taken, so that they differ as the paper's do.

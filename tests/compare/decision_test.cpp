@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "compare/calibrate/decision_words.hpp"
+#include "compare/calibrate/calibration_words.hpp"
 
 namespace soilbin::compare {
 namespace {
