@@ -6,7 +6,7 @@
 #include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
-#include "compare/recorded/run_list.hpp"
+#include "compare/recorded/run_specs.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/sealed_json.hpp"
 #include "scenario/atomic_file.hpp"
@@ -33,27 +33,25 @@ void BatchFlags::check(const std::string& store) const {
 }
 
 void BatchFlags::learn(compare::ExperimentStore& store) const {
-  for (const std::string& file : tell) store.take(file);
+  for (const std::string& file : tell) store.merge(file);
 }
 
-int BatchFlags::write(const compare::VirtualTest& test, const std::vector<compare::AskedExperiment>& asked) const {
+int BatchFlags::write(const compare::VirtualTest& test) const {
   clear_progress_line();
-  write_file_atomically(batch, compare::batch_text(test, asked));
-  fmt::print("wrote {}: {} to be made\n", batch, compare::counted(asked.size(), "experiment"));
+  write_file_atomically(batch, compare::batch_text(test, *test.asked));
+  fmt::print("wrote {}: {} to be made\n", batch, compare::counted(test.asked->size(), "experiment"));
   return unfinished;
 }
 
 int BatchFlags::answer(const compare::VirtualTest& test, compare::ExperimentStore& store) const {
-  const std::vector<compare::AskedExperiment> all =
+  std::vector<compare::ExperimentSpec> mine =
       compare::parse_batch(read_source_text(batch, compare::largest_json), test);
-  std::vector<compare::AskedRun> places;  // a stretch of the batch, as of a list of runs
-  for (std::size_t k = 0; k < all.size(); ++k) places.push_back({{}, k});
-  if (!shard.empty()) places = compare::shard_of(places, compare::parse_shard(shard));
+  if (!shard.empty()) mine = compare::shard_of(mine, compare::parse_shard(shard));
   try {
-    for (std::size_t k = 0; k < places.size(); ++k) {
+    for (std::size_t k = 0; k < mine.size(); ++k) {
       if (interrupt_asked()) throw Interrupted();
-      print_beside_progress(fmt::format("experiment {} of {}", k + 1, places.size()));
-      compare::experiment_at(test, all[places[k].packing].values, all[places[k].packing].seed, store);
+      print_beside_progress(fmt::format("experiment {} of {}", k + 1, mine.size()));
+      compare::obtain(test, mine[k], store);
     }
   } catch (const Interrupted&) {
     clear_progress_line();
@@ -62,7 +60,7 @@ int BatchFlags::answer(const compare::VirtualTest& test, compare::ExperimentStor
     return unfinished;
   }
   clear_progress_line();
-  fmt::print("{} of the batch are in the store\n", compare::counted(places.size(), "experiment"));
+  fmt::print("{} of the batch are in the store\n", compare::counted(mine.size(), "experiment"));
   return done;
 }
 

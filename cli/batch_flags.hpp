@@ -26,8 +26,8 @@ struct BatchFlags {
 
   /// Takes the stores that --tell names.
   void learn(compare::ExperimentStore& store) const;
-  /// Writes the batch; gives the exit status.
-  int write(const compare::VirtualTest& test, const std::vector<compare::AskedExperiment>& asked) const;
+  /// Writes what the test waits for as the batch; gives the exit status.
+  int write(const compare::VirtualTest& test) const;
   /// Makes the shard's experiments of the batch that the store lacks; gives the exit status.
   int answer(const compare::VirtualTest& test, compare::ExperimentStore& store) const;
 };

@@ -8,7 +8,6 @@
 #include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
-#include "compare/recorded/run_list.hpp"
 #include "dem/bed/relative_density.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
@@ -58,15 +57,13 @@ int beds(const std::string& study, const SoilBinFlags& flags, const CLI::App& co
   const dem::DemSettings settings = settings_of(flags);
   if (settings.beds.empty())
     throw InputError("there is no folder to keep beds in\n  hint: export SOILBIN_BEDS=FOLDER, one that all jobs see");
-  std::vector<compare::AskedRun> packings;  // a bed each
-  for (const std::uint64_t packing : compare::packings_from(settings, flags.packings))
-    packings.push_back({{}, packing});
+  std::vector<std::uint64_t> packings = compare::packings_from(settings, flags.packings);
   if (!flags.shard.empty()) packings = compare::shard_of(packings, compare::parse_shard(flags.shard));
   try {
     const std::optional<dem::DensityLimits> limits = limits_of(settings, question.scenario);
     if (limits)
       fmt::print("void ratios of these grains: {:.3f} loosest, {:.3f} densest\n", limits->loosest, limits->densest);
-    for (const compare::AskedRun& bed : packings) settle(settings, question.scenario, bed.packing, limits);
+    for (const std::uint64_t packing : packings) settle(settings, question.scenario, packing, limits);
   } catch (const Interrupted&) {
     return unfinished;
   }

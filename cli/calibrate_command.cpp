@@ -33,40 +33,21 @@ struct CalibrateOptions {
   bool json = false, runs = false;
 };
 
-/// One line on a terminal: which run, what it is at, the time left if all runs are needed.
-class Shown {
- public:
-  void next(const compare::CalibrationProgress& progress) {
-    text_ = fmt::format("{}: run {} of at most {}", stage_name(progress.stage), progress.done + 1, progress.at_most);
-    if (progress.stage == compare::Stage::refinement)
-      text_ += fmt::format(", best chance {:.0f} %", 100 * progress.chance);
-    begin("at most ", progress.seconds_a_run, progress.at_most - progress.done);
-  }
-  void next(const compare::TrialProgress& progress) {
-    text_ = fmt::format("soil bin: candidate {} of {}, run {} of {}", compare::candidate_name(progress.candidate),
-                        progress.candidates, progress.done + 1, progress.at_all);
-    begin("", progress.seconds_a_run, progress.at_all - progress.done);
-  }
-  void within_run(const dem::Progress& progress) const {
-    if (interrupt_asked()) throw Interrupted();
-    print(fmt::format(", {} {:.0f} %", progress.stage, 100 * progress.done), progress.done);
-  }
+/// One line on a terminal: which run, what goes on inside it, the time left if all runs are needed.
+struct Shown {
+  std::string run;
+  double seconds_left = 0;
 
- private:
-  void begin(const char* bound, double seconds_a_run, int runs_left) {
+  compare::Watch of_runs() {
+    return [this](const dem::Progress& at) { run = at.stage, seconds_left = at.seconds_left, show(""); };
+  }
+  compare::Watch inside() {
+    return [this](const dem::Progress& at) { show(fmt::format(", {} {:.0f} %", at.stage, 100 * at.done)); };
+  }
+  void show(const std::string& doing) const {
     if (interrupt_asked()) throw Interrupted();
-    bound_ = bound, seconds_a_run_ = seconds_a_run, runs_left_ = runs_left;
-    print("", 0.0);
+    show_progress_line(run + doing + (seconds_left > 0 ? fmt::format(", {:.0f} s left", seconds_left) : ""));
   }
-  void print(const std::string& doing, double share) const {
-    std::string line = text_ + doing;
-    if (seconds_a_run_ > 0) line += fmt::format(", {}{:.0f} s left", bound_, seconds_a_run_ * (runs_left_ - share));
-    show_progress_line(line);
-  }
-
-  std::string text_, bound_;
-  double seconds_a_run_ = 0.0;
-  int runs_left_ = 0;
 };
 
 fs::path store_of(const CalibrateOptions& asked, const Soil& soil) {
@@ -96,12 +77,10 @@ void print(const CalibrateOptions& asked, const compare::VirtualTest& test, cons
 
 /// The published sets of a file by our virtual test.
 int set_beside(const CalibrateOptions& asked, const compare::VirtualTest& test, compare::ExperimentStore& store,
-               const std::shared_ptr<Shown>& shown) {
+               Shown& shown) {
   std::vector<compare::PublishedSet> sets =
       compare::parse_published_sets(read_source_text(asked.beside, compare::largest_csv), test);
-  compare::run_sets(sets, test, asked.options.seed, store, [&](int made, int total) {
-    shown->next({compare::Stage::design, made, total, 0.0, 0.0});
-  });
+  compare::run_sets(sets, test, asked.options.seed, store, shown.of_runs());
   clear_progress_line();
   fmt::print("{}", as_text(compare::beside_table(test, sets)));
   return done;
@@ -123,15 +102,14 @@ struct Calibrated {
 
 /// Lets the soil bin decide, where that is asked for; refuses what it couldn't run before any work is done.
 void add_decision(CalibrateOptions& asked, const Calibrated& what, fs::path records, const Workplace& place,
-                  const std::shared_ptr<Shown>& shown) {
+                  Shown& shown) {
   if (!asked.decision.given()) return;
   asked.decision.bin.texts["--settling-friction"] = asked.contact_test.settling_friction;
   asked.decision.bin.threads = asked.contact_test.threads;
   compare::TrialQuestion question = asked.decision.question(place);
   question.soil = what.soil, question.kind = what.kind, question.factors = what.test.factors;
   compare::TrialSettings settings = asked.decision.settings(asked.options.seed, std::move(records));
-  settings.bin.how.progress = [shown](const dem::Progress& progress) { shown->within_run(progress); };
-  settings.progress = [shown](const compare::TrialProgress& progress) { shown->next(progress); };
+  settings.bin.how.progress = shown.inside(), settings.watch = shown.of_runs();
   compare::check(question, settings);
   asked.options.decide = [=, &place](const std::vector<compare::Candidate>& candidates) {
     return compare::decide_in_soil_bin(question, settings, candidates, place.effects);
@@ -173,10 +151,9 @@ int calibrate(CalibrateOptions asked, const CLI::App& command, const Session& se
   const ContactKind kind = asked.contact_test.kind();
   check_flags(asked, command, kind);
   read_shares(asked);
-  const auto shown = std::make_shared<Shown>();
-  asked.options.progress = [shown](const compare::CalibrationProgress& progress) { shown->next(progress); };
-  const compare::VirtualTest test =
-      asked.contact_test.test(soil, [shown](const dem::Progress& progress) { shown->within_run(progress); });
+  Shown shown;
+  asked.options.watch = shown.of_runs();
+  compare::VirtualTest test = asked.contact_test.test(soil, shown.inside());
   const fs::path file = store_of(asked, soil);
   add_decision(asked, {soil, kind, test}, records_beside(file), session.place, shown);
   asked.batch.check(asked.store);
@@ -187,9 +164,9 @@ int calibrate(CalibrateOptions asked, const CLI::App& command, const Session& se
   compare::Calibration calibration;
   try {
     if (!asked.beside.empty()) return set_beside(asked, test, store, shown);
-    calibration = compare::calibrate(asked.batch.asks() ? compare::only_asking(test) : test, asked.options, store);
-  } catch (const compare::ExperimentsAsked& more) {
-    return asked.batch.write(test, more.experiments);
+    if (asked.batch.asks()) test.asked = std::make_shared<std::vector<compare::ExperimentSpec>>();
+    calibration = compare::calibrate(test, asked.options, store);
+    if (test.waits()) return asked.batch.write(test);
   } catch (const Interrupted&) {
     clear_progress_line();
     if (!file.empty())

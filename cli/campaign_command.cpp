@@ -11,7 +11,7 @@
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
-#include "compare/recorded/campaign_provenance.hpp"
+#include "compare/recorded/campaign_of_records.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -21,18 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct CampaignOptions {
+struct CampaignFlags {
   std::vector<std::string> records, hide, effects;
   std::string output, name, soil;
   bool only_steady = false;
   unsigned seed = 1;
 };
-
-compare::JoinedRecords read_records(const std::vector<std::string>& files) {
-  compare::JoinedRecords joined;
-  for (const std::string& file : files) compare::join({file, read_record_with_notes(file)}, joined);
-  return joined;
-}
 
 /// The case of the first record, on the soil that is asked for.
 Scenario scenario_of(const compare::NamedRecord& first, const std::string& soil, const Workplace& place) {
@@ -42,26 +36,28 @@ Scenario scenario_of(const compare::NamedRecord& first, const std::string& soil,
   return scenario;
 }
 
-compare::Disclosure disclosure_of(const CampaignOptions& asked, const Soil& soil, const Workplace& place) {
-  compare::Disclosure disclosed;
-  disclosed.name = asked.name.empty() ? fs::path(asked.output).filename().string() : asked.name;
-  if (disclosed.name.empty()) disclosed.name = fs::path(asked.output).parent_path().filename().string();
-  disclosed.hide = {asked.hide.begin(), asked.hide.end()};
-  disclosed.only_steady = asked.only_steady, disclosed.seed = asked.seed;
-  for (const std::string& text : asked.effects) add_effect(disclosed.effects, text, place.effects, soil);
-  return disclosed;
+compare::CampaignOptions options_of(const CampaignFlags& asked, const Soil& soil, const Workplace& place) {
+  compare::CampaignOptions told;
+  told.name = asked.name.empty() ? fs::path(asked.output).filename().string() : asked.name;
+  if (told.name.empty()) told.name = fs::path(asked.output).parent_path().filename().string();
+  told.hide = {asked.hide.begin(), asked.hide.end()};
+  told.only_steady = asked.only_steady, told.seed = asked.seed;
+  for (const std::string& text : asked.effects) add_effect(told.effects, text, place.effects, soil);
+  return told;
 }
 
-int campaign(const CampaignOptions& asked, const Session& session) {
-  const compare::JoinedRecords joined = read_records(asked.records);
-  const Scenario scenario = scenario_of(joined.records.front(), asked.soil, session.place);
+int campaign(const CampaignFlags& asked, const Session& session) {
+  std::vector<compare::NamedRecord> records;
+  for (const std::string& file : asked.records) records.push_back({file, read_record_with_notes(file)});
+  const std::vector<compare::RecordedRun> runs = compare::joined_runs(records);
+  const Scenario scenario = scenario_of(records.front(), asked.soil, session.place);
   const compare::CampaignOfRecords made =
-      compare::tell_campaign(scenario, joined.runs, disclosure_of(asked, scenario.soil, session.place));
+      compare::campaign_from_runs(scenario, runs, options_of(asked, scenario.soil, session.place));
   const std::string hidden = compare::hidden_in_words(asked.hide, asked.effects);
   compare::write_campaign(asked.output, made.campaign, session.place.effects);
   write_file_atomically(
       fs::path(asked.output) / "README.md",
-      compare::provenance_text(joined, made, hidden, {SOILBIN_VERSION, source_state(), session.command}));
+      compare::provenance_text(records, made, hidden, {SOILBIN_VERSION, source_state(), session.command}));
   compare::read_campaign(asked.output, session.place.library, session.place.effects,
                          compare::CampaignUse::fit);  // refuses what a loop would refuse, now
   const auto drifting = std::ranges::count_if(made.runs, [](const auto& run) { return !run.steady; });
@@ -76,7 +72,7 @@ int campaign(const CampaignOptions& asked, const Session& session) {
 
 void add_campaign(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("campaign", "make a measured campaign of recorded runs of grains");
-  const auto asked = std::make_shared<CampaignOptions>();
+  const auto asked = std::make_shared<CampaignFlags>();
   add_value(*command, "records", asked->records, "RECORD.json", "made by soilbin run --model dem --record FILE")
       ->required();
   add_folder(*command, "--output", asked->output, "folder of the campaign")->required();

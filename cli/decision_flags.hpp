@@ -12,7 +12,7 @@
 
 namespace soilbin::cli {
 
-/// As typed; empty: the default.
+/// The flags as typed; empty: the default.
 struct DecisionFlags {
   std::string campaign;         ///< empty: nobody decides
   std::vector<std::string> at;  ///< NAME=LOW..HIGH of a member of the condition

@@ -11,6 +11,7 @@
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
+#include "cli/versions.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/experiments/failure_map_grains.hpp"
 #include "compare/experiments/run_plan.hpp"
@@ -21,7 +22,7 @@
 namespace soilbin::cli {
 namespace {
 
-/// What a Gaussian process learns from in seconds.
+/// Most conditions that a Gaussian process learns from in seconds.
 constexpr long long most_conditions_of_map = 1000;
 
 struct FailureMapOptions {
@@ -66,20 +67,20 @@ compare::InclineMap map_of(const FailureMapOptions& asked, const Case& question,
   return map;
 }
 
-void show_run(int done, int total) {
+void show_run(const dem::Progress& at) {
   if (interrupt_asked()) throw Interrupted();
-  show_progress_line(fmt::format("condition {} of {}", done + 1, total));
+  show_progress_line(std::string(at.stage));
 }
 
 /// The experiments that the map would make first, as runs and their cost; more are chosen by their answers.
 int plan(const FailureMapOptions& asked, Case question, const compare::InclineMap& map,
-         const std::vector<compare::AskedExperiment>& experiments) {
-  std::vector<compare::AskedRun> list;
+         const std::vector<compare::ExperimentSpec>& experiments) {
+  std::vector<compare::RunSpec> list;
   std::vector<std::string> lugs;
   question.scenario.tire.lugs.height = map.factors[compare::map_lug_height].upper;
   question.study.conditions.clear();
-  for (const compare::AskedExperiment& one : experiments) {
-    list.push_back({compare::condition_at(map, one.values), one.seed, false});
+  for (const compare::ExperimentSpec& one : experiments) {
+    list.push_back({compare::condition_at(map, one.values), one.seed});
     question.study.conditions.push_back(list.back().at);
     lugs.push_back(fmt::format("lugs of {:.3g} mm", 1000 * one.values[compare::map_lug_height]));
   }
@@ -112,33 +113,30 @@ int failure_map(const FailureMapOptions& asked, const CLI::App& command, const S
   tell_unsealed(store, asked.store);
   asked.batch.learn(store);
   const compare::InclineMap map = map_of(asked, question, session.place);
-  compare::VirtualTest grains = compare::map_grains(map, question, settings_of(asked.soil_bin), session.place.effects,
-                                                    {{}, {}, {}, SOILBIN_VERSION, source_state()});
+  compare::VirtualTest grains =
+      compare::map_grains(map, settings_of(asked.soil_bin), {.version = SOILBIN_VERSION, .source = source_state()});
   if (asked.stored) grains.run = {};
   if (asked.batch.answers()) return asked.batch.answer(grains, store);
-  if (asked.batch.asks() || asked.dry_run) grains = compare::only_asking(std::move(grains));
+  if (asked.batch.asks() || asked.dry_run) grains.asked = std::make_shared<std::vector<compare::ExperimentSpec>>();
   const compare::MapLearning how{.runs = {.first = asked.first,
                                           .at_boundary = asked.at_boundary,
                                           .at_once = std::max(asked.dry_run ? asked.at_boundary : 1, asked.batch.ask),
                                           .seed = asked.seed,
-                                          .progress = show_run},
+                                          .watch = show_run},
                                  .rounds = asked.rounds,
                                  .fresh = asked.fresh,
                                  .tolerance = read_flag("--tolerance", asked.tolerance, {"%", above_zero}),
                                  .packing = static_cast<std::uint64_t>(asked.soil_bin.packing)};
   try {
     compare::FailureMapResult result = compare::learn_map(map, grains, store, how);
-    result.map.scenario.soil.name = values.title(true);
     clear_progress_line();
-    if (asked.dry_run) return plan(asked, question, map, {});
+    if (asked.dry_run) return plan(asked, question, map, *grains.asked);
+    if (grains.waits()) return asked.batch.write(grains);
+    result.map.scenario.soil.name = values.title(true);
     const compare::FailureMapAbout about{"Failure map: " + name_of(result.map.incline),
                                          write_case(question, session.place.effects), asked.rows};
     return publish(compare::report_on(result, about), asked.outputs, doubts_of(result, grains, store), session)
         .status(done);
-  } catch (const compare::ExperimentsAsked& more) {
-    clear_progress_line();
-    if (asked.dry_run) return plan(asked, question, map, more.experiments);
-    return asked.batch.write(grains, more.experiments);
   } catch (const Interrupted&) {
     if (!asked.store.empty())
       fmt::print(stderr, "\n{} runs are in {}: the same command goes on from there", store.size(), asked.store);

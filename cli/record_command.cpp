@@ -8,7 +8,7 @@
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "compare/recorded/record_words.hpp"
-#include "compare/recorded/run_list.hpp"
+#include "compare/recorded/run_specs.hpp"
 #include "compare/recorded/step_pair.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/file_bytes.hpp"
@@ -46,15 +46,13 @@ void refuse_other_runs(const std::string& out, const compare::Record& whole) {
   } catch (const InputError&) {
     throw InputError({out}, "is there already, is no record, and stays as it is", "", hint);
   }
-  for (const auto list : {&compare::Record::runs, &compare::Record::half_step})
-    for (const compare::RecordedRun& run : before.*list) {
-      const compare::AskedRun one{run.answer.at, run.packing, list == &compare::Record::half_step};
-      if (compare::find_run(whole, one) == nullptr)
+  for (const bool half : {false, true})
+    for (const compare::RecordedRun& run : before.list(half))
+      if (const compare::RunSpec spec{run.answer.at, run.packing, half}; compare::find_run(whole, spec) == nullptr)
         throw InputError(
             {out},
-            fmt::format("holds a run that none of the others does ({}), and stays as it is", compare::in_words(one)),
+            fmt::format("holds a run that none of the others does ({}), and stays as it is", compare::in_words(spec)),
             "", hint);
-    }
 }
 
 int merge(const RecordOptions& asked) {
@@ -88,9 +86,9 @@ int missing(const RecordOptions& asked, const Session& session) {
     records.push_back(record);
   }
   const auto list =
-      compare::list_of(question, settings_of(asked.expected), asked.expected.packings, asked.expected.tests_step());
+      compare::specs(question, settings_of(asked.expected), asked.expected.packings, asked.expected.tests_step());
   const auto left = compare::missing_runs(list, records);
-  for (const compare::AskedRun& run : left) fmt::print("{}\n", compare::in_words(run));
+  for (const compare::RunSpec& run : left) fmt::print("{}\n", compare::in_words(run));
   fmt::print("{} of {} missing\n", left.size(), compare::counted(list.size(), "run"));
   return left.empty() ? done : unfinished;
 }

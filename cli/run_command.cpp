@@ -88,18 +88,13 @@ void check_flags(const RunOptions& options, const CLI::App& command, const Case&
     throw InputError("--shard needs a record of its own for what it makes\n  hint: --record FILE.json");
 }
 
-/// Says where each run of the list is on standard error, those of a shard by a line each.
-compare::BeforeRun shown_runs(const SoilBinFlags& bin, compare::StudyGrains& grains) {
-  std::vector<compare::Record> before;  // what the record holds already is not made again
-  if (fs::exists(bin.record)) before.push_back(compare::read_record(bin.record));
+/// Shows what goes on inside a run behind its name, which the watch is told.
+compare::Watch shown_runs(dem::DemSettings& settings) {
   const auto at = std::make_shared<std::string>();
-  grains.settings.how.progress = [at](const dem::Progress& progress) { show_progress_of(*at, progress); };
-  return [=, shard = !bin.shard.empty(), of = grains.list.size()](std::size_t place, const compare::AskedRun& run) {
+  settings.how.progress = [at](const dem::Progress& progress) { show_progress_of(*at, progress); };
+  return [at](const dem::Progress& run) {
     if (interrupt_asked()) throw Interrupted();
-    *at = fmt::format("run {} of {}", place + 1, of);
-    if (shard)
-      print_beside_progress(fmt::format("{}: {}{}", *at, compare::in_words(run),
-                                        compare::missing_runs({run}, before).empty() ? ", recorded before" : ""));
+    *at = run.stage;
   };
 }
 
@@ -174,12 +169,20 @@ int make_shard(const RunOptions& options, const Case& question, const Case& whol
   const SoilBinFlags& bin = options.soil_bin;
   try {
     recording(options, [&] {
+      const std::vector<compare::RunSpec> list = bin.runs(question);
       compare::StudyGrains grains = grains_of(bin);
-      grains.list = bin.runs(question);
-      const compare::BeforeRun before = shown_runs(bin, grains);
-      compare::make_runs(grains.list, grains.settings, whole, session.place.effects, grains.keeping, before);
-      fmt::print("{}: shard {} is done, {} recorded\n", bin.record, bin.shard,
-                 compare::counted(grains.list.size(), "run"));
+      const compare::Watch watch = shown_runs(grains.settings);
+      compare::RunStore store = compare::store_of(grains.settings, whole, session.place.effects, grains.keeping);
+      compare::SoilBinRuns runs(grains.settings, grains.keeping);
+      for (std::size_t k = 0; k < list.size(); ++k) {
+        if (store.knows(list[k])) continue;
+        const std::string name = fmt::format("run {} of {}", k + 1, list.size());
+        compare::tell(watch, name, k, list.size());
+        print_beside_progress(fmt::format("{}: {}{}", name, compare::in_words(list[k]),
+                                          store.find(list[k]) != nullptr ? ", recorded before" : ""));
+        obtain(list[k], whole.scenario, store, runs);
+      }
+      fmt::print("{}: shard {} is done, {} recorded\n", bin.record, bin.shard, compare::counted(list.size(), "run"));
     });
     return done;
   } catch (const Interrupted&) {
@@ -206,11 +209,11 @@ int answer(const RunOptions& options, const Case& question, const Case& whole,
     const SoilBinFlags& bin = options.soil_bin;
     const bool asks_grains = asks(question.study, ModelKind::dem);
     compare::StudyGrains grains;
-    compare::BeforeRun before;
+    compare::Watch watch;
     grains.keeping = keeping_of(bin);
     if (asks_grains) grains = grains_of(bin);
-    if (asks_grains && !bin.record.empty()) grains.list = bin.runs(question), before = shown_runs(bin, grains);
-    return compare::answer_study(question, whole, grains, session.place.effects, before, shown_progress());
+    if (asks_grains && !bin.record.empty()) grains.list = bin.runs(question), watch = shown_runs(grains.settings);
+    return compare::answer_study(question, whole, grains, session.place.effects, watch, shown_progress());
   });
   answered.step = step;
   answered.doubts.insert(answered.doubts.begin(), options.notes.begin(), options.notes.end());

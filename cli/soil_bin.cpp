@@ -240,8 +240,10 @@ std::optional<bool> SoilBinFlags::tests_step() const {
   return half_step.empty() ? std::nullopt : std::optional(half_step == "yes");
 }
 
-std::vector<compare::AskedRun> SoilBinFlags::runs(const Case& question) const {
-  std::vector<compare::AskedRun> list = compare::runs_of(question, settings_of(*this), packings, tests_step());
+std::vector<compare::RunSpec> SoilBinFlags::runs(const Case& question) const {
+  const dem::DemSettings settings = settings_of(*this);
+  std::vector<compare::RunSpec> list = compare::specs(question, settings, packings, tests_step());
+  compare::check_runs(question, settings);
   return shard.empty() ? list : compare::shard_of(list, compare::parse_shard(shard));
 }
 

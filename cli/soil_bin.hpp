@@ -29,7 +29,7 @@ void show_progress_of(const std::string& work, const dem::Progress& progress);
 /// A line on standard error that progress doesn't write over.
 void print_beside_progress(const std::string& words);
 
-/// What --settling-friction says: a name (dem::named_densities) or a share of friction. Throws InputError.
+/// The value of --settling-friction: a name (dem::named_densities) or a share of friction. Throws InputError.
 double read_settling_friction(const std::string& text, double unless_given);
 inline constexpr const char* settling_type = "loose|medium|dense|SHARE";
 
@@ -56,19 +56,19 @@ struct SoilBinFlags {
   void add_to(CLI::App& command);
   /// Flags of bed, rig and numerics only: their lengths, times and steps.
   void add_measures_to(CLI::App& command);
-  /// What a bed hangs on alone, and threads: for who only settles beds.
+  /// Flags of the bed and threads, for commands that only settle beds.
   void add_bed_to(CLI::App& command);
   void add_starting_to(CLI::App& command);
   /// --patch and --until-error.
   void add_patch_to(CLI::App& command);
-  /// Bed, rig and threads alone: for who keeps no records.
+  /// Bed, rig and numerics only, for commands that keep no records.
   void add_rig_to(CLI::App& command);
   /// --packings alone.
   void add_packings_to(CLI::App& command);
-  /// What --half-step says; nothing where it was not given.
+  /// The value of --half-step; nothing where it was not given.
   std::optional<bool> tests_step() const;
-  /// The runs that a question is answered by, or those of the shard alone. Throws what compare::runs_of throws.
-  std::vector<compare::AskedRun> runs(const Case& question) const;
+  /// The runs that a question is answered by, or those of the shard alone. Throws as compare::specs and check_runs.
+  std::vector<compare::RunSpec> runs(const Case& question) const;
   void add_half_step_to(CLI::App& command);
   /// --engine, --ranks, --settled-by.
   void add_engine_to(CLI::App& command);
@@ -84,10 +84,10 @@ struct SoilBinFlags {
 /// Throws InputError that names the flag.
 dem::DemSettings settings_of(const SoilBinFlags& flags);
 
-/// What the flags have kept of runs, by this program.
+/// The files of runs that the flags name, and this program as their maker.
 compare::RunKeeping keeping_of(const SoilBinFlags& flags);
 
-/// What is doubtful in the bed that the flags and the case's bin make under its tire.
+/// Doubts in the bed that the flags and the case's bin make under its tire.
 std::vector<std::string> bed_doubts(const SoilBinFlags& flags, const Case& question);
 
 /// On standard error, before minutes of grains: that they are coarse for the wheel or too soft, values that are hardly

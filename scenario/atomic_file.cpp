@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <stdexcept>
 #include <system_error>
 
@@ -209,6 +210,25 @@ void write_file_atomically(const fs::path& path, std::string_view content) {
   FreshFile file(path);
   file.write(content);
   file.put_in_place();
+}
+
+void append_line(const fs::path& path, std::string_view line) {
+  const auto fail = [&](const char* step) {
+    throw CannotWrite(fmt::format("{}: can't {}: {}", path.string(), step, reason_of(errno)));
+  };
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (file < 0) fail("open");
+  const std::unique_ptr<const int, void (*)(const int*)> closes(&file, [](const int* it) { ::close(*it); });
+  off_t end = ::lseek(file, 0, SEEK_END);
+  for (char last = 0; end > 0 && ::pread(file, &last, 1, end - 1) == 1 && last != '\n';) --end;
+  const std::string text = std::string(line) + "\n";
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t written = ::pwrite(file, text.data() + done, text.size() - done, end + static_cast<off_t>(done));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("write");
+    done += static_cast<std::size_t>(written);
+  }
+  if (::ftruncate(file, end + static_cast<off_t>(text.size())) != 0 || ::fsync(file) != 0) fail("flush");
 }
 
 std::string why_not_writable(const fs::path& path) {

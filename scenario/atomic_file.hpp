@@ -56,6 +56,10 @@ void make_folder(const std::filesystem::path& folder);
 /// Throws CannotWrite.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
+/// Adds a line to a file of lines, which is begun where it isn't there, and makes sure that it is on the disk. What
+/// somebody who was stopped left behind the last whole line goes. A link of that name is refused. Throws CannotWrite.
+void append_line(const std::filesystem::path& path, std::string_view line);
+
 /// Why no file of this name could be written now, for people; "" where it could. Tries it in the nearest folder that is
 /// there, and leaves nothing.
 std::string why_not_writable(const std::filesystem::path& path);

@@ -207,37 +207,33 @@ class Work {
     const LevelTable design = first_columns(named_array(options_.design), static_cast<int>(test_.factors.size()));
     check(options_, design.runs());
     run_design(design);
+    if (test_.waits()) return {};
     analyse(design);
     run_candidates();
     refine();
-    return conclude();
+    return test_.waits() ? Calibration{} : conclude();
   }
 
  private:
   bool may_run() const { return static_cast<int>(answer_.runs.size()) < options_.most_runs; }
 
-  void tell(Stage stage, double chance) const {
-    if (!options_.progress) return;
-    CalibrationProgress progress{stage, static_cast<int>(answer_.runs.size()), options_.most_runs, 0.0, chance};
-    for (const CalibrationRun& run : answer_.runs) progress.seconds_a_run += run.experiment.seconds;
-    if (progress.done > 0) progress.seconds_a_run /= progress.done;
-    options_.progress(progress);
-  }
-
   /// From the store, or made now and kept. A repetition at the same point takes the next seed.
   void run(Stage stage, const VectorXd& values, double chance = 0.0) {
     std::uint64_t seed = options_.seed;
-    for (const CalibrationRun& before : answer_.runs) seed += before.experiment.values == values;
-    tell(stage, chance);
-    auto [experiment, from_store] = experiment_at(test_, values, seed, store_);
-    answer_.runs.push_back({stage, std::move(experiment), from_store});
+    double seconds = 0;
+    for (const auto& [when, before] : answer_.runs) seed += before.values == values, seconds += before.seconds;
+    const std::size_t done = answer_.runs.size();
+    const std::string best = stage == Stage::refinement ? fmt::format(", best chance {:.0f} %", 100 * chance) : "";
+    tell(options_.watch,
+         fmt::format("{}: run {} of at most {}{}", stage_name(stage), done + 1, options_.most_runs, best), done,
+         static_cast<std::size_t>(options_.most_runs), seconds);
+    if (std::optional<Experiment> made = obtain(test_, {values, seed}, store_))
+      answer_.runs.push_back({stage, std::move(*made)});
   }
 
   void run_design(const LevelTable& design) {
     const Eigen::MatrixXd points = unit_points(design);
-    std::vector<VectorXd> all;
-    for (Index i = 0; i < points.rows(); ++i) all.push_back(from_unit(test_.factors, points.row(i)));
-    ask_together(all, [&](const VectorXd& values) { run(Stage::design, values); });
+    for (Index i = 0; i < points.rows(); ++i) run(Stage::design, from_unit(test_.factors, points.row(i)));
   }
 
   /// Range analysis and analysis of variance, where every run of the design has a result. The runs' own errors are the
@@ -270,12 +266,12 @@ class Work {
     std::vector<Candidate> spread = points.spread_out(options_.near, options_.candidates);
     const int left = options_.most_runs - static_cast<int>(answer_.runs.size());
     spread.resize(std::min(spread.size(), static_cast<std::size_t>(left)));
-    ask_together(spread, [&](const Candidate& one) { run(Stage::candidates, one.values, one.chance); });
+    for (const Candidate& one : spread) run(Stage::candidates, one.values, one.chance);
   }
 
   /// Runs the likeliest point until one that was run is likely enough.
   void refine() {
-    while (may_run()) {
+    while (may_run() && !test_.waits()) {
       const LikelyPoints points = learn();
       const Candidate likeliest = points.likeliest(), tried = points.likeliest_tried();
       if (tried.chance >= options_.probability) return;

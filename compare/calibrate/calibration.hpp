@@ -16,6 +16,7 @@
 #include "compare/calibrate/experiment_store.hpp"
 #include "compare/design/gaussian_process.hpp"
 #include "compare/design/level_effects.hpp"
+#include "compare/recorded/watch.hpp"
 
 namespace soilbin::compare {
 
@@ -29,7 +30,6 @@ enum class Stage {
 struct CalibrationRun {
   Stage stage = Stage::design;
   Experiment experiment;
-  bool from_store = false;
 };
 
 /// A point of the box and what is known of it.
@@ -41,15 +41,6 @@ struct Candidate {
   int runs = 0;                     ///< made at this very point
 };
 
-/// How far a calibration is. Called before each run; may throw to stop, and what is finished is in the store.
-struct CalibrationProgress {
-  Stage stage = Stage::design;
-  int done = 0;                ///< runs so far, those from the store included
-  int at_most = 0;             ///< runs in all
-  double seconds_a_run = 0.0;  ///< mean of those made; 0 before the first
-  double chance = 0.0;         ///< best one so far, in the refinement
-};
-
 struct CalibrationOptions {
   std::string design = "L9";
   double near = 0.05;         ///< candidates lie within this share of each target (the paper's 5 %)
@@ -59,19 +50,19 @@ struct CalibrationOptions {
   int most_runs = 30;         ///< in all
   std::uint64_t seed = 1;     ///< of the packings' first, the cloud and the surrogates
   int cloud = 4096;           ///< points of the box that are looked at
-  std::function<void(const CalibrationProgress&)> progress{};
+  Watch watch{};              ///< of each run: "design: run 3 of at most 30"
   /// What another experiment, such as the soil bin, decides between the candidates: decide_in_soil_bin. Absent: the
   /// likeliest point that was run.
   std::function<Decision(const std::vector<Candidate>&)> decide{};
 };
 
-/// What the design says about one target.
+/// The design's analysis of one target.
 struct TargetAnalysis {
   RangeAnalysis ranges;
   AnalysisOfVariance variance;
 };
 
-/// What a calibration found.
+/// A finished calibration.
 struct Calibration {
   std::vector<CalibrationRun> runs;
   std::vector<TargetAnalysis> analyses;  ///< a target each; empty where a run of the design failed
@@ -88,8 +79,8 @@ struct Calibration {
 
 /// Runs the stages. Work found in the store isn't done again: the same test, options and store give the same answer
 /// whether it was stopped in between or not. Throws InputError for a test or options that make no sense, NoSolution
-/// where too many experiments fail to learn from the rest, and what `progress` throws; ExperimentsAsked of the design,
-/// of the candidates, or of one refinement, where the test only asks.
+/// where too many experiments fail to learn from the rest, and what `watch` throws. Where the test waits for
+/// experiments, of the design, of the candidates, or of one refinement, the answer is empty.
 Calibration calibrate(const VirtualTest& test, const CalibrationOptions& options, ExperimentStore& store);
 
 /// "design", "candidates", "refinement".

@@ -9,8 +9,122 @@
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/nearest_word.hpp"
 
 namespace soilbin::compare {
+namespace {
+
+constexpr OfChannels<const char*> wholes = {"W", "W r", "r", "W"};
+
+bool is_measured(const Decision& decision, std::size_t channel) {
+  for (const Setpoint& setpoint : decision.setpoints)
+    if (setpoint.measured[channel]) return true;
+  return false;
+}
+
+bool has_reruns(const Decision& decision) {
+  for (const Setpoint& setpoint : decision.setpoints)
+    for (const std::optional<Estimate>& measured : setpoint.measured)
+      if (measured && measured->std_error > 0) return true;
+  return false;
+}
+
+std::vector<std::string> tied_names(const Decision& decision, std::size_t but) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < decision.trials.size(); ++k)
+    if (k != but && decision.trials[k].error && !decision.trials[k].apart) names.push_back(candidate_name(k));
+  return names;
+}
+
+std::string error_text(const Estimate& error) { return number(error, 100) + " %"; }
+
+std::string failure_of(const Trial& trial) {
+  for (const Answer& answer : trial.answers)
+    if (!answer.result) return fmt::format("at {}: {}", in_words(answer.at), answer.error);
+  return "";
+}
+
+std::string verdict(const Decision& decision, std::size_t candidate) {
+  const Trial& trial = decision.trials[candidate];
+  if (!trial.error) return failure_of(trial);
+  if (candidate == decision.chosen) return "chosen";
+  if (trial.apart) return "farther off";
+  return candidate == decision.nearest ? "nearest, not told apart" : "not told apart";
+}
+
+Json by_channel(const OfChannels<std::optional<Estimate>>& values) {
+  Json json = Json::object();
+  for (std::size_t c = 0; c < values.size(); ++c)
+    if (values[c]) json[std::string(channel_views[c].name)] = estimate_json(*values[c]);
+  return json;
+}
+
+Json json_of(const Trial& trial) {
+  Json answers = Json::array();
+  for (const Answer& answer : trial.answers) answers.push_back(to_json(answer));
+  return {{"error", trial.error ? estimate_json(*trial.error) : Json(nullptr)},
+          {"errors", by_channel(trial.errors)},
+          {"apart", trial.apart},
+          {"answers", answers}};
+}
+
+}  // namespace
+
+std::string candidate_name(std::size_t candidate) {
+  return fmt::format("({})", static_cast<char>('a' + static_cast<char>(candidate)));
+}
+
+std::vector<std::string> decision_sentences(const Decision& decision) {
+  if (!decision.decided())
+    return {
+        fmt::format("In the soil bin no candidate had a result at all {} setpoints of {}: the likeliest is kept. {}.",
+                    decision.setpoints.size(), decision.campaign, failure_of(decision.trials.front()))};
+  std::vector<std::string> said;
+  said.push_back(fmt::format("In the soil bin {} is nearest to {}: {} of the load off, over {} setpoint{}.",
+                             candidate_name(decision.nearest), decision.campaign,
+                             error_text(*decision.trials[decision.nearest].error), decision.setpoints.size(),
+                             decision.setpoints.size() == 1 ? "" : "s"));
+  if (decision.tied() > 1)
+    said.push_back(fmt::format(
+        "It is not told apart from {} by two standard errors: {}, the likeliest of these on the targets, is chosen.",
+        listed(tied_names(decision, decision.nearest)), candidate_name(decision.chosen)));
+  if (!has_reruns(decision))
+    said.push_back(
+        fmt::format("{} repeats no setpoint: its own scatter is not known and counts as none.", decision.campaign));
+  if (decision.not_steady > 0)
+    said.push_back(fmt::format("{} of the {} runs did not become steady.", decision.not_steady, decision.runs));
+  return said;
+}
+
+std::vector<std::string> decision_columns(const Decision& decision) {
+  std::vector<std::string> header;
+  for (std::size_t c = 0; c < channel_views.size(); ++c)
+    if (is_measured(decision, c)) header.push_back(fmt::format("{} off [% {}]", channel_views[c].title, wholes[c]));
+  header.insert(header.end(), {"off [%]", "soil bin"});
+  return header;
+}
+
+std::vector<std::string> decision_cells(const Decision& decision, std::size_t candidate) {
+  const Trial& trial = decision.trials[candidate];
+  std::vector<std::string> row;
+  for (std::size_t c = 0; c < channel_views.size(); ++c)
+    if (is_measured(decision, c)) row.push_back(trial.errors[c] ? number(*trial.errors[c], 100) : "-");
+  row.push_back(trial.error ? number(*trial.error, 100) : "-");
+  row.push_back(verdict(decision, candidate));
+  return row;
+}
+
+nlohmann::ordered_json to_json(const Decision& decision) {
+  Json setpoints = Json::array(), trials = Json::array();
+  for (const Setpoint& setpoint : decision.setpoints)
+    setpoints.push_back(
+        {{"at", to_json(setpoint.at)}, {"runs", setpoint.runs}, {"measured", by_channel(setpoint.measured)}});
+  for (const Trial& trial : decision.trials) trials.push_back(json_of(trial));
+  return {{"campaign", decision.campaign},     {"decided", decision.decided()}, {"nearest", decision.nearest},
+          {"chosen", decision.chosen},         {"tied", decision.tied()},       {"runs", decision.runs},
+          {"not_steady", decision.not_steady}, {"setpoints", setpoints},        {"trials", trials}};
+}
+
 namespace {
 
 std::string with_unit(const std::string& text, const std::string& unit) { return text + unit_behind(unit); }
@@ -41,7 +155,7 @@ std::string values_in_words(const VirtualTest& test, const Eigen::VectorXd& valu
 
 int fresh_runs(const Calibration& calibration) {
   int fresh = 0;
-  for (const CalibrationRun& run : calibration.runs) fresh += !run.from_store;
+  for (const CalibrationRun& run : calibration.runs) fresh += !run.experiment.from_store;
   return fresh;
 }
 
@@ -76,7 +190,7 @@ void add_cells(std::vector<TableCell>& row, const VirtualTest& test, const Eigen
     row.push_back(results.empty() ? "-" : number(results[t], per_unit(test.targets[t].unit)));
 }
 
-/// What of a value's source is the decision's.
+/// The decision's part of a value's source.
 std::string decided_by(const Calibration& calibration) {
   if (!calibration.decision || !calibration.decision->decided()) return "";
   const Decision& decision = *calibration.decision;
@@ -251,7 +365,7 @@ Json runs_json(const VirtualTest& test, const Calibration& calibration) {
   for (const CalibrationRun& run : calibration.runs) {
     Json json{{"stage", stage_name(run.stage)},    {"values", values_json(test, run.experiment.values)},
               {"seed", run.experiment.seed},       {"results", results_json(test, run.experiment.results)},
-              {"seconds", run.experiment.seconds}, {"from_store", run.from_store}};
+              {"seconds", run.experiment.seconds}, {"from_store", run.experiment.from_store}};
     if (!run.experiment.error.empty()) json["error"] = run.experiment.error;
     runs.push_back(std::move(json));
   }

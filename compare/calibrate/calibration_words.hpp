@@ -1,4 +1,5 @@
-// What a calibration found: as sentences, tables, JSON, and as a soil that other commands take.
+// What a calibration found, and what the soil bin decided between its candidates: as sentences, tables, JSON, and as a
+// soil that other commands take.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -36,19 +37,18 @@ nlohmann::ordered_json to_json(const VirtualTest& test, const CalibrationOptions
 Soil calibrated_soil(Soil soil, ContactKind kind, const VirtualTest& test, const CalibrationOptions& options,
                      const Calibration& calibration);
 
-// What the soil bin decides between candidates (decision_words.cpp).
-
 /// "(a)" for the first.
 std::string candidate_name(std::size_t candidate);
 
-/// What the soil bin says, what it can't tell apart, and what the errors don't hold. One string a sentence.
+/// The soil bin's verdict, the candidates that it can't tell apart, and what the errors don't hold. One string a
+/// sentence.
 std::vector<std::string> decision_sentences(const Decision& decision);
 
 /// Headings and a candidate's cells: the error of each channel that was measured, of all, and the verdict.
 std::vector<std::string> decision_columns(const Decision& decision);
 std::vector<std::string> decision_cells(const Decision& decision, std::size_t candidate);
 
-/// All in SI; errors as shares of the load.
+/// A decision, all in SI; errors as shares of the load.
 nlohmann::ordered_json to_json(const Decision& decision);
 
 }  // namespace soilbin::compare

@@ -17,7 +17,7 @@ namespace soilbin::compare {
 template <class T>
 using OfChannels = std::array<T, channel_views.size()>;
 
-/// What a campaign measured at one condition.
+/// A condition of a campaign, and what was measured there.
 struct Setpoint {
   OperatingCondition at;  ///< means of its runs, without what grains don't know: moisture, position, run, pressure
   int runs = 0;           ///< that the campaign made there
@@ -29,7 +29,7 @@ struct Setpoint {
 /// its rows.
 std::vector<Setpoint> setpoints_of(const Campaign& campaign);
 
-/// Setpoints between the bounds of one member of the condition, both included [SI].
+/// The setpoints between the bounds of one member of the condition, both included [SI].
 std::vector<Setpoint> between(const std::vector<Setpoint>& setpoints, double OperatingCondition::*member, double lower,
                               double upper);
 
@@ -43,7 +43,7 @@ struct Trial {
   bool apart = false;  ///< told apart from the nearest candidate: farther off by more than two standard errors
 };
 
-/// What was decided, and from what.
+/// The candidate that the soil bin chose, and the trials behind the choice.
 struct Decision {
   std::string campaign;
   std::vector<Setpoint> setpoints;

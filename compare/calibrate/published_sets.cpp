@@ -46,10 +46,10 @@ std::vector<PublishedSet> parse_published_sets(const SourceText& source, const V
 }
 
 void run_sets(std::vector<PublishedSet>& sets, const VirtualTest& test, std::uint64_t seed, ExperimentStore& store,
-              const std::function<void(int done, int total)>& progress) {
+              const Watch& watch) {
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    if (progress) progress(static_cast<int>(i), static_cast<int>(sets.size()));
-    sets[i].ours = experiment_at(test, sets[i].values, seed, store).first;
+    tell(watch, fmt::format("set {} of {}", i + 1, sets.size()), i, sets.size());
+    sets[i].ours = obtain(test, {sets[i].values, seed}, store).value();
   }
 }
 

@@ -1,11 +1,11 @@
 // Sets of contact values that others published with what they got: our virtual test beside theirs.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "compare/calibrate/experiment_store.hpp"
+#include "compare/recorded/watch.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::compare {
@@ -22,8 +22,8 @@ struct PublishedSet {
 /// NAME_UNIT ("board_angle_deg"). Throws InputError at the place for a missing column or a cell that is no number.
 std::vector<PublishedSet> parse_published_sets(const SourceText& source, const VirtualTest& test);
 
-/// Runs each set, or takes it from the store. `progress` is told how many are done, before each, and may throw.
+/// Runs each set, or takes it from the store.
 void run_sets(std::vector<PublishedSet>& sets, const VirtualTest& test, std::uint64_t seed, ExperimentStore& store,
-              const std::function<void(int done, int total)>& progress = {});
+              const Watch& watch = {});
 
 }  // namespace soilbin::compare

@@ -98,7 +98,7 @@ std::vector<PlannedVariant> plan_variants(const dem::DemSettings& settings, cons
     PlannedVariant& planned = plan.emplace_back(PlannedVariant{.name = variant.name});
     try {
       dem::DemModel(variant.settings).check(variant.scenario);
-      const RunPlan of = plan_of(variant.asked_of(question), variant.settings, {{at, variant.settings.packing, false}},
+      const RunPlan of = plan_of(variant.asked_of(question), variant.settings, {{at, variant.settings.packing}},
                                  variant.kept(keeping));
       planned.recorded = of.runs.front().recorded, planned.seconds = of.runs.front().seconds;
       planned.settles = !of.unsettled.empty() && !planned.recorded;
@@ -133,9 +133,10 @@ std::vector<VariantRun> run_variants(const dem::DemSettings& settings, const Cas
   const OperatingCondition at = only_condition(settings, question);
   std::vector<VariantRun> runs;
   for (const Variant& variant : variants_of(settings, question.scenario)) {
-    const RunOnce run = run_once(variant.settings, variant.asked_of(question), effects, variant.kept(keeping));
+    RunStore store = store_of(variant.settings, variant.asked_of(question), effects, variant.kept(keeping));
+    SoilBinRuns bin(variant.settings, keeping);
     try {
-      runs.push_back({variant.name, run(variant.scenario, at, variant.settings.packing)});
+      runs.push_back({variant.name, obtain({at, variant.settings.packing}, variant.scenario, store, bin)});
     } catch (const InputError& refused) {
       runs.push_back(
           {variant.name,

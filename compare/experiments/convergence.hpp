@@ -18,7 +18,7 @@ struct VariantRun {
 std::vector<VariantRun> run_variants(const dem::DemSettings& settings, const Case& question,
                                      const EffectVocabulary& effects, const RunKeeping& keeping);
 
-/// What run_variants would make.
+/// A run that run_variants would make.
 struct PlannedVariant {
   std::string name;
   bool recorded = false;
@@ -33,7 +33,7 @@ std::vector<PlannedVariant> plan_variants(const dem::DemSettings& settings, cons
 /// A line for each, and the sum.
 std::string plan_text(const std::vector<PlannedVariant>& plan);
 
-/// What each variant changes, beside the standard error of the difference.
+/// The change that each variant makes, beside the standard error of the difference.
 Table convergence_table(const std::vector<VariantRun>& runs);
 /// soilbin-convergence/1.
 nlohmann::ordered_json convergence_json(const std::vector<VariantRun>& runs);

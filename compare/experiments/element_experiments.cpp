@@ -35,7 +35,7 @@ class Identity {
         .add("", laws.tangential_damping)
         .add("twisting", static_cast<int>(laws.twisting));
   }
-  /// What is varied is set to 0.
+  /// The soil of an experiment; its varied numbers are set to 0.
   Identity& add(const ElementExperiment& experiment, ContactKind kind) {
     const VectorXd none = VectorXd::Zero(static_cast<Eigen::Index>(experiment.factors.size()));
     const GranularSoil soil = with_values(experiment, kind, none);
@@ -59,7 +59,7 @@ VirtualTest test_of(const ElementExperiment& experiment, std::string identity) {
   return test;
 }
 
-/// What the engine had to stop is an experiment without an answer.
+/// A run that the engine had to stop is an experiment without an answer.
 template <class Run>
 std::vector<Estimate> answered(const Run& run) {
   try {

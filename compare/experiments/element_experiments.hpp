@@ -18,7 +18,7 @@ namespace soilbin::compare {
 /// Which strength of the shear box counts.
 enum class Strength { peak, residual };
 
-/// What both tests need to know.
+/// The settings that both tests share.
 struct ElementExperiment {
   GranularSoil soil;            ///< what isn't varied
   std::vector<Factor> factors;  ///< named as a contact's numbers
@@ -26,7 +26,7 @@ struct ElementExperiment {
   dem::WorkOptions how;
 };
 
-/// What a person asks when he calibrates a contact.
+/// A calibration of a contact, as a person asks for it.
 struct ContactQuestion {
   ContactKind kind = ContactKind::grain_grain;
   std::vector<Factor> factors;

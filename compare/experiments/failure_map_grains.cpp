@@ -9,8 +9,7 @@
 
 namespace soilbin::compare {
 
-VirtualTest map_grains(const InclineMap& map, const Case& question, const dem::DemSettings& settings,
-                       const EffectVocabulary& effects, const RunKeeping& keeping) {
+VirtualTest map_grains(const InclineMap& map, const dem::DemSettings& settings, const RunKeeping& keeping) {
   VirtualTest test;
   test.identity = fmt::format("soil bin, {}, speed {}", name_of(map.incline), map.base.speed);
   for (const auto& [name, value] : inputs_of(settings, map.scenario))
@@ -21,11 +20,11 @@ VirtualTest map_grains(const InclineMap& map, const Case& question, const dem::D
   test.on_saved = [last] {
     if (last->on_saved) last->on_saved();
   };
-  test.run = [map, last, run = run_once(settings, question, effects, keeping)](const Eigen::VectorXd& values,
-                                                                               std::uint64_t seed) {
+  test.run = [map, last, bin = std::make_shared<SoilBinRuns>(settings, keeping)](const Eigen::VectorXd& values,
+                                                                                 std::uint64_t seed) {
     Scenario grains = scenario_at(map, values);
     grains.effects.clear();
-    *last = run(grains, condition_at(map, values), seed);
+    *last = (*bin)(grains, {condition_at(map, values), seed});
     if (!last->answer.result) throw NoSolution(last->answer.error);
     std::vector<Estimate> measured;
     for (const TractionChannel& channel : traction_channels)

@@ -17,15 +17,6 @@ namespace soilbin::compare {
 /// The files of compare/experiments/scripts; made by the build.
 std::vector<EmbeddedFile> job_scripts();
 
-std::vector<std::vector<std::size_t>> runs_of_shards(const RunPlan& plan, int shards) {
-  std::vector<AskedRun> list;
-  for (const PlannedRun& run : plan.runs) list.push_back(run.run);
-  const std::vector<int> numbers = shard_numbers(list, shards);
-  std::vector<std::vector<std::size_t>> places(static_cast<std::size_t>(shards));
-  for (std::size_t i = 0; i < numbers.size(); ++i) places[static_cast<std::size_t>(numbers[i] - 1)].push_back(i);
-  return places;
-}
-
 namespace {
 
 std::string quoted(const std::vector<std::string>& words) { return shell_words(words); }
@@ -33,9 +24,9 @@ std::string quoted(const std::filesystem::path& path) { return shell_words({path
 
 double longest_shard(const Jobs& jobs) {
   double longest = 0;
-  for (const std::vector<std::size_t>& runs : runs_of_shards(jobs.plan, jobs.shards)) {
+  for (int k = 1; k <= jobs.shards; ++k) {
     double seconds = 0;
-    for (const std::size_t i : runs) seconds += jobs.plan.runs[i].seconds;
+    for (const PlannedRun& run : shard_of(jobs.plan.runs, {k, jobs.shards})) seconds += run.seconds;
     longest = std::max(longest, seconds);
   }
   return longest;

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What sweep.json holds.
+/// The content of sweep.json.
 struct WrittenJobs {
   bool slurm = false;
   int shards = 1;
@@ -64,7 +64,7 @@ std::string last_line(const fs::path& file) {
   return last;
 }
 
-/// What Slurm says of the tasks of a job array that it still knows: "RUNNING", "PENDING", ...
+/// The states that Slurm gives to tasks of a job array that it still knows: "RUNNING", "PENDING", ...
 std::map<int, std::string> slurm_tasks(const std::string& job) {
   std::map<int, std::string> tasks;
   if (job.empty() || job.find_first_not_of("0123456789") != job.npos) return tasks;
@@ -94,16 +94,14 @@ std::map<int, std::string> shards_at_work(const fs::path& folder, const WrittenJ
   return states;
 }
 
-/// `runs`: the shard's, places in the plan.
 ShardStatus shard_status(const fs::path& folder, const WrittenJobs& jobs, int number,
-                         const std::vector<std::size_t>& runs, const std::map<int, std::string>& at_work) {
+                         const std::map<int, std::string>& at_work) {
   ShardStatus status;
   const fs::path file = shard_record(folder, {number, jobs.shards});
   Record record;
   if (fs::exists(file)) record = read_record(file);
-  for (const std::size_t i : runs) {
-    const PlannedRun& planned = jobs.plan.runs[i];
-    const RecordedRun* run = find_run(record, planned.run);
+  for (const PlannedRun& planned : shard_of(jobs.plan.runs, {number, jobs.shards})) {
+    const RecordedRun* run = find_run(record, planned);
     ++status.runs;
     if (run == nullptr && !planned.recorded) {
       status.seconds_left += planned.seconds;
@@ -137,10 +135,8 @@ JobStatus job_status(const fs::path& folder) {
   const std::map<int, std::string> at_work = shards_at_work(folder, jobs);
   JobStatus status{.folder = folder, .study = jobs.plan.study};
   double planned = 0, taken = 0;
-  const std::vector<std::vector<std::size_t>> runs = runs_of_shards(jobs.plan, jobs.shards);
   for (int k = 1; k <= jobs.shards; ++k) {
-    const ShardStatus& shard =
-        status.shards.emplace_back(shard_status(folder, jobs, k, runs[static_cast<std::size_t>(k - 1)], at_work));
+    const ShardStatus& shard = status.shards.emplace_back(shard_status(folder, jobs, k, at_work));
     status.runs += shard.runs, status.recorded += shard.recorded, status.without_result += shard.without_result;
     status.seconds_left += shard.seconds_left, planned += shard.seconds_planned, taken += shard.seconds_taken;
   }

@@ -30,7 +30,7 @@ struct Jobs {
   int shards = 1, at_once = 1;                    ///< at_once: processes of this machine side by side
 };
 
-/// Of sweep.json.
+/// The format of sweep.json.
 inline constexpr const char* jobs_format = "soilbin-sweep/1";
 
 /// Seconds that a job should take, unless somebody asks otherwise: Slurm's jobs wait for their turn.
@@ -42,9 +42,6 @@ constexpr int side_by_side(int cores, int threads) { return cores > threads ? co
 /// So many shards that each makes runs for at least `at_least` seconds, as far as one can say; 1 at least, and no more
 /// than there are runs.
 int shards_for(const RunPlan& plan, double at_least);
-
-/// By shard, from the first on: indices into plan.runs of its runs.
-std::vector<std::vector<std::size_t>> runs_of_shards(const RunPlan& plan, int shards);
 
 /// The record of a shard, below the jobs' folder.
 std::filesystem::path shard_record(const std::filesystem::path& folder, const Shard& shard);

@@ -10,7 +10,7 @@
 
 namespace soilbin::compare {
 
-/// Where a replay goes.
+/// A replay's file and the source that it names.
 struct ReplayKeeping {
   std::filesystem::path file;  ///< empty: none is kept
   std::string source;          ///< state of the sources that the program was built from, shown beside the title

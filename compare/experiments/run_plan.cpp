@@ -36,7 +36,7 @@ std::vector<std::uint64_t> without_file(const std::set<std::uint64_t>& packings,
   return missing;
 }
 
-/// What a thread of the engine does in the time of a process of LAMMPS, on settled beds of 11,333 to 400,000 grains
+/// Speed of a thread of the engine over that of a process of LAMMPS, on settled beds of 11,333 to 400,000 grains
 /// (docs/guide/past-one-machine.md, "When does it pay?").
 constexpr double engine_over_lammps = 5;
 
@@ -49,9 +49,9 @@ class RunCosts {
   /// to be engine_over_lammps times slower than that, a process.
   RunCosts(const Scenario& scenario, const dem::DemSettings& settings, const std::vector<Record>& records);
 
-  double steps(const AskedRun& run) const;
+  double steps(const RunSpec& run) const;
   /// On the clock on the wall, the bed already settled [s].
-  double seconds(const AskedRun& run) const { return in_run_ * steps(run) / speed_; }
+  double seconds(const RunSpec& run) const { return in_run_ * steps(run) / speed_; }
   /// To settle a bed, about: as long as grains take to fall by its depth, thirty times [s].
   double bed_seconds() const;
   int threads() const;  ///< of LAMMPS: processes
@@ -76,16 +76,16 @@ RunCosts::RunCosts(const Scenario& scenario, const dem::DemSettings& settings, c
       in_run_(dem::DemModel(settings).grains_of_run(scenario)) {
   double work = 0, seconds = 0;
   for (const Record& record : records)
-    for (RunList list : {&Record::runs, &Record::half_step})
-      for (const RecordedRun& run : record.*list) {
+    for (const bool half : {false, true})
+      for (const RecordedRun& run : record.list(half)) {
         if (!run.answer.result) continue;  // it may have ended early
-        work += in_run_ * steps({run.answer.at, run.packing, list == &Record::half_step}), seconds += run.seconds;
+          work += in_run_ * steps({run.answer.at, run.packing, half}), seconds += run.seconds;
         ++from_runs_;
       }
   speed_ = seconds > 0 ? work / seconds : trial(settings) * threads() / (settings.lammps ? engine_over_lammps : 1);
 }
 
-double RunCosts::steps(const AskedRun& run) const {
+double RunCosts::steps(const RunSpec& run) const {
   return dem::DemModel(settings_).expected_steps(scenario_, run.at) * (run.half_step ? 2 : 1);
 }
 
@@ -156,19 +156,21 @@ std::string why_refused(const OperatingCondition& at, const Tire& tire) {
 
 }  // namespace
 
-RunPlan plan_of(const Case& question, const dem::DemSettings& settings, const std::vector<AskedRun>& list,
+RunPlan plan_of(const Case& question, const dem::DemSettings& settings, const std::vector<RunSpec>& specs,
                 const RunKeeping& keeping) {
   std::vector<fs::path> files = keeping.known;
   if (is_there(keeping.record)) files.push_back(keeping.record);
-  const std::vector<Record> records = read_records(files, inputs_of(settings, question.scenario));
+  const Inputs inputs = inputs_of(settings, question.scenario);
+  std::vector<Record> records;
+  for (const fs::path& file : files) refuse_other_inputs(records.emplace_back(read_record(file)), inputs, file);
   dem::DemModel(settings).check(question.scenario);
   const RunCosts costs(question.scenario, settings, records);
   RunPlan plan{.study = question.study.name, .runs = {}};
   std::set<std::uint64_t> packings;
-  for (const AskedRun& run : list) {
-    packings.insert(run.packing);
-    PlannedRun planned{run, missing_runs({run}, records).empty(), 0, why_refused(run.at, question.scenario.tire)};
-    if (planned.refused.empty()) planned.seconds = costs.seconds(run);
+  for (const RunSpec& spec : specs) {
+    packings.insert(spec.packing);
+    PlannedRun planned{spec, missing_runs({spec}, records).empty(), 0, why_refused(spec.at, question.scenario.tire)};
+    if (planned.refused.empty()) planned.seconds = costs.seconds(spec);
     plan.runs.push_back(std::move(planned));
   }
   plan.beds = packings.size(), plan.unsettled = without_file(packings, settings, question.scenario);
@@ -182,9 +184,9 @@ std::string plan_text(const RunPlan& plan) {
   Table table{"", {"run", "bed sample", "condition", "time"}};
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     const PlannedRun& planned = plan.runs[k];
-    table.add({std::to_string(k + 1), std::to_string(planned.run.packing),
-               in_words(planned.run.at) + (planned.of_tire.empty() ? "" : ", " + planned.of_tire) +
-                   (planned.run.half_step ? ", half the time step" : ""),
+    table.add({std::to_string(k + 1), std::to_string(planned.packing),
+               in_words(planned.at) + (planned.of_tire.empty() ? "" : ", " + planned.of_tire) +
+                   (planned.half_step ? ", half the time step" : ""),
                planned.recorded          ? "recorded"
                : planned.refused.empty() ? duration_text(planned.seconds)
                                          : "no answer: " + planned.refused});
@@ -211,8 +213,8 @@ std::string plan_text(const RunPlan& plan) {
 Json plan_json(const RunPlan& plan) {
   Json runs = Json::array();
   for (const PlannedRun& planned : plan.runs) {
-    Json row = to_json(planned.run.at);
-    row["packing"] = planned.run.packing, row["half_step"] = planned.run.half_step;
+    Json row = to_json(planned.at);
+    row["packing"] = planned.packing, row["half_step"] = planned.half_step;
     row["recorded"] = planned.recorded, row["seconds"] = planned.seconds;
     if (!planned.refused.empty()) row["refused"] = planned.refused;
     if (!planned.of_tire.empty()) row["tire"] = planned.of_tire;

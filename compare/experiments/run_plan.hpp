@@ -1,7 +1,7 @@
 // What a study asks of grains before any run is made: the list of runs, which are recorded, what the rest will cost.
 // `soilbin run --dry-run` shows it, `soilbin sweep` divides it among jobs.
 //
-//   const RunPlan plan = plan_of(question, settings, runs_of(question, settings, 3), {});
+//   const RunPlan plan = plan_of(question, settings, specs(question, settings, 3), {});
 //   fmt::print("{} of {} are recorded\n", plan.recorded(), plan.runs.size());
 #pragma once
 
@@ -13,8 +13,7 @@
 
 namespace soilbin::compare {
 
-struct PlannedRun {
-  AskedRun run;
+struct PlannedRun : RunSpec {
   bool recorded = false;
   double seconds = 0;     ///< that it will take, as far as one can say
   std::string refused{};  ///< why it will have no answer, where that is known beforehand
@@ -38,10 +37,10 @@ struct RunPlan {
   double core_hours_left() const;
 };
 
-/// The plan of a list of runs (runs_of, shard_of). Reads keeping.known, and keeping.record where it is there. Throws
+/// The plan of the runs of specs. Reads keeping.known, and keeping.record where it is there. Throws
 /// InputError for a soil without values of grains, for a record of other inputs, and for what no run could begin with
 /// (DemModel::check).
-RunPlan plan_of(const Case& question, const dem::DemSettings& settings, const std::vector<AskedRun>& list,
+RunPlan plan_of(const Case& question, const dem::DemSettings& settings, const std::vector<RunSpec>& specs,
                 const RunKeeping& keeping);
 
 /// How the last line ends of a command that was stopped, by a person or a job's time limit, and kept what it had made.

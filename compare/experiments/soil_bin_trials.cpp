@@ -2,81 +2,14 @@
 
 #include <fmt/core.h>
 
-#include <memory>
-
-#include "compare/experiments/soil_bin_runs.hpp"
+#include "compare/calibrate/calibration_words.hpp"
+#include "compare/recorded/recorded_model.hpp"
 #include "compare/sweep/varying.hpp"
 #include "dem/rig/wheel_in_bin.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
-namespace {
-
-/// The trials of one decision: counts and times runs, and keeps each candidate's in a record of its own.
-class Trials {
- public:
-  Trials(const TrialQuestion& question, const TrialSettings& settings, const EffectVocabulary& effects,
-         std::size_t candidates)
-      : question_(question),
-        settings_(settings),
-        effects_(effects),
-        runs_(std::make_shared<SoilBinRuns>(settings.bin, settings.source)) {
-    for (int k = 0; k < settings.packings; ++k)
-      packings_.push_back(settings.bin.packing + static_cast<std::uint64_t>(k));
-    at_.candidates = candidates;
-    at_.at_all = static_cast<int>(candidates * question.setpoints.size() * packings_.size());
-  }
-
-  std::vector<Answer> answers_of(std::size_t candidate, const Eigen::VectorXd& values) {
-    at_.candidate = candidate;
-    const Case question = trial_case(question_, values);
-    const RunOnPackings model("dem", packings_, counted(kept(question)));
-    return sweep(model, question.scenario, question.study.conditions);
-  }
-
-  int runs() const { return at_.done; }
-  int not_steady() const { return not_steady_; }
-
- private:
-  RunOnce kept(const Case& question) const {
-    const bool recorded = !settings_.records.empty();
-    RunOnce run = [runs = runs_, recorded](const Scenario& scenario, const OperatingCondition& at,
-                                           std::uint64_t packing) {
-      RecordedRun made = (*runs)(scenario, at, packing);
-      if (!recorded) made.on_saved();  // nobody asked for more than what is in memory
-      return made;
-    };
-    if (!recorded) return run;
-    const std::string key = inputs_key(inputs_of(settings_.bin, question.scenario));
-    RunKeeping keeping;
-    keeping.record = settings_.records / (key + ".json"), keeping.version = settings_.version;
-    return kept_runs(keeping, settings_.bin, question, effects_, std::move(run));
-  }
-
-  RunOnce counted(RunOnce run) {
-    return [this, run = std::move(run)](const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
-      if (settings_.progress) settings_.progress(at_);
-      RecordedRun made = run(scenario, at, packing);
-      seconds_ += made.seconds, ++at_.done;
-      at_.seconds_a_run = seconds_ / at_.done;
-      not_steady_ += made.answer.result && !made.steady;
-      return made;
-    };
-  }
-
-  const TrialQuestion& question_;
-  const TrialSettings& settings_;
-  const EffectVocabulary& effects_;
-  std::shared_ptr<SoilBinRuns> runs_;  // one for all: the tire's contact doesn't change the bed
-  std::vector<std::uint64_t> packings_;
-  TrialProgress at_;
-  double seconds_ = 0.0;
-  int not_steady_ = 0;
-};
-
-}  // namespace
-
 void check(const TrialQuestion& question, const TrialSettings& settings) {
   grains_of(question.soil);
   if (question.setpoints.empty()) throw InputError(fmt::format("{} has no setpoint to run", question.campaign.name));
@@ -115,12 +48,35 @@ Decision decide_in_soil_bin(const TrialQuestion& question, const TrialSettings& 
                             const std::vector<Candidate>& candidates, const EffectVocabulary& effects) {
   check(question, settings);
   if (!settings.records.empty()) make_folder(settings.records);
-  Trials trials(question, settings, effects, candidates.size());
+  SoilBinRuns bin(settings.bin, {.source = settings.source});  // for all: the tire's contact doesn't change the bed
+  const std::vector<std::uint64_t> packings = packings_from(settings.bin, settings.packings);
+  const std::size_t all = candidates.size() * question.setpoints.size() * packings.size();
+  std::size_t done = 0;
+  double seconds = 0;
+  int not_steady = 0;
   std::vector<std::vector<Answer>> answers;
-  for (std::size_t k = 0; k < candidates.size(); ++k) answers.push_back(trials.answers_of(k, candidates[k].values));
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const Case trial = trial_case(question, candidates[k].values);
+    RunKeeping keeping{.version = settings.version, .source = settings.source};
+    if (!settings.records.empty())
+      keeping.record = settings.records / (inputs_key(inputs_of(settings.bin, trial.scenario)) + ".json");
+    RunStore store = store_of(settings.bin, trial, effects, keeping);
+    const RunOnPackings model("dem", packings, [&](const Scenario& scenario, const RunSpec& spec) {
+      tell(settings.watch,
+           fmt::format("soil bin: candidate {} of {}, run {} of {}", candidate_name(k), candidates.size(), done + 1,
+                       all),
+           done, all, seconds);
+      RecordedRun run = obtain(spec, scenario, store, bin);
+      if (settings.records.empty()) run.on_saved();  // nobody asked for more than what is in memory
+      seconds += run.seconds, ++done;
+      not_steady += run.answer.result && !run.steady;
+      return run;
+    });
+    answers.push_back(sweep(model, trial.scenario, trial.study.conditions));
+  }
   Decision decision =
       decide(question.campaign.name, question.setpoints, std::move(answers), question.campaign.wheel.radius);
-  decision.runs = trials.runs(), decision.not_steady = trials.not_steady();
+  decision.runs = static_cast<int>(done), decision.not_steady = not_steady;
   return decision;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,20 +23,13 @@ struct TrialQuestion {
   std::vector<Setpoint> setpoints;  ///< of the campaign: those that are run
 };
 
-/// How far the runs are. Told before each.
-struct TrialProgress {
-  std::size_t candidate = 0, candidates = 0;  ///< from 0
-  int done = 0, at_all = 0;                   ///< runs
-  double seconds_a_run = 0.0;                 ///< mean of those that are finished; 0 before the first
-};
-
 struct TrialSettings {
   dem::DemSettings bin;  ///< its packing is the first bed's seed
   int packings = 1;      ///< beds on which each candidate runs
   std::filesystem::path
       records;  ///< folder that gets a record of each candidate (docs/guide/recorded.md); empty: none is kept
-  std::string version, source;                           ///< of soilbin and of the sources that it was built from
-  std::function<void(const TrialProgress&)> progress{};  ///< may throw to stop; what is finished is in the records
+  std::string version, source;  ///< of soilbin and of the sources that it was built from
+  Watch watch{};                ///< of each run: "soil bin: candidate B of 3, run 4 of 12"
 };
 
 /// Refuses what no run could answer, before hours are spent: a soil without grains, no setpoint, a wheel that can't be
@@ -48,8 +40,7 @@ void check(const TrialQuestion& question, const TrialSettings& settings);
 Case trial_case(const TrialQuestion& question, const Eigen::VectorXd& values);
 
 /// Runs every candidate at every setpoint, candidate by candidate, or takes it from the records: the same question and
-/// records give the same decision, whether it was stopped in between or not. Throws as check, and what `progress`
-/// throws.
+/// records give the same decision, whether it was stopped in between or not. Throws as check, and what `watch` throws.
 Decision decide_in_soil_bin(const TrialQuestion& question, const TrialSettings& settings,
                             const std::vector<Candidate>& candidates, const EffectVocabulary& effects);
 

@@ -7,7 +7,7 @@
 
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_resolution.hpp"
-#include "compare/recorded/step_pair.hpp"
+#include "compare/recorded/recorded_model.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -20,7 +20,7 @@ std::vector<SidePoint> points_of(const ModelAnswers& model, const std::vector<Re
   return side_of("", runs, conditions).points;
 }
 
-/// What is doubtful in them; "" where nothing is.
+/// The doubts in runs, in a line; "" where there are none.
 std::string remark_on(const SidePoint& runs) { return fmt::to_string(fmt::join(runs.doubts, "; ")); }
 
 /// How many packings the answer is the mean of, and whether their runs became steady.
@@ -46,7 +46,7 @@ Json rows_with_runs(const Case& question, const StudyResults& results) {
   return rows;
 }
 
-/// Of the answers, and of the record that the runs are kept in, where it is there.
+/// Doubts in the answers, and in the record that the runs are kept in, where it is there.
 std::vector<std::string> doubts_of_study(const Case& question, const std::vector<ModelAnswers>& study,
                                          const std::filesystem::path& record) {
   std::vector<std::string> all = doubts(question, study);
@@ -70,14 +70,6 @@ void name_lammps(Case& question) {
     if (choice.model == ModelKind::dem) choice.label = dem::lammps_model_name;
 }
 
-std::unique_ptr<const Model> grain_model(const StudyGrains& grains, const Case& whole, const EffectVocabulary& effects,
-                                         const RunListener& on_run) {
-  if (grains.recorded) return recorded_soil_bin(grains.recorded->record, whole.scenario, grains.recorded->file, on_run);
-  dem::DemModel(grains.settings).check(whole.scenario);  // what no run could answer is no answer of each
-  return soil_bin_model(grains.settings, grains.packings, run_once(grains.settings, whole, effects, grains.keeping),
-                        on_run);
-}
-
 namespace {
 
 /// Throws InputError for a run without end, which would keep the others from theirs. What else is wrong with a
@@ -94,17 +86,65 @@ void refuse_endless_runs(const StudyGrains& grains, const Case& question) {
   }
 }
 
+/// The model dem: its runs in the soil bin or, in their place, a record's. Gathers them in `runs`, in the order in
+/// which they are asked for.
+class Grains : public Model {
+ public:
+  Grains(const StudyGrains& grains, const Case& whole, const EffectVocabulary& effects, std::vector<RecordedRun>& runs)
+      : grains_(grains), runs_(runs) {
+    if (grains.recorded) {
+      refuse_other_grains(grains.recorded->record, whole.scenario, grains.recorded->file);
+      recorded_.emplace(grains.recorded->record);
+      return;
+    }
+    dem::DemModel(grains.settings).check(whole.scenario);  // what no run could answer is no answer of each
+    store_.reset(new RunStore(store_of(grains.settings, whole, effects, grains.keeping)));
+    bin_ = std::make_unique<SoilBinRuns>(grains.settings, grains.keeping);
+  }
+
+  std::string name() const override { return recorded_ ? recorded_->name() : dem::model_name(grains_.settings); }
+  std::vector<std::string> doubts() const override {
+    return recorded_ ? recorded_->doubts() : std::vector<std::string>{};
+  }
+  TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override {
+    if (recorded_) {
+      for (const RecordedRun* run : recorded_->runs(at)) runs_.push_back(*run);
+      return recorded_->evaluate(scenario, at);
+    }
+    const auto run = [&](const Scenario& of, const RunSpec& spec) {
+      return runs_.emplace_back(obtain(spec, of, *store_, *bin_));
+    };
+    return RunOnPackings(name(), packings_from(grains_.settings, grains_.packings), run).evaluate(scenario, at);
+  }
+  /// Makes the runs of the list first, in its order; what a record elsewhere has is left to it.
+  void make_listed(const Scenario& scenario, const Watch& watch) {
+    const std::vector<RunSpec>& list = grains_.list;
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      if (store_->knows(list[k])) continue;
+      tell(watch, fmt::format("run {} of {}", k + 1, list.size()), k, list.size());
+      obtain(list[k], scenario, *store_, *bin_);
+    }
+  }
+
+ private:
+  const StudyGrains& grains_;
+  std::vector<RecordedRun>& runs_;
+  std::optional<RecordedModel> recorded_;
+  std::unique_ptr<RunStore> store_;  ///< it and the bin only without a record that answers
+  std::unique_ptr<SoilBinRuns> bin_;
+};
+
 }  // namespace
 
 StudyResults answer_study(const Case& question, const Case& whole, const StudyGrains& grains,
-                          const EffectVocabulary& effects, const BeforeRun& before, const Progress& progress) {
+                          const EffectVocabulary& effects, const Watch& watch, const Progress& progress) {
   StudyResults results;
   if (asks(question.study, ModelKind::dem) && !grains.recorded) refuse_endless_runs(grains, question);
-  if (asks(question.study, ModelKind::dem) && !grains.keeping.record.empty())
-    make_runs(grains.list, grains.settings, whole, effects, grains.keeping, before);
-  results.study = run_study(question, progress, [&](ModelKind kind) {
-    const RunListener listen = [&](const RecordedRun& run) { results.runs.push_back(run); };
-    return kind == ModelKind::dem ? grain_model(grains, whole, effects, listen) : make_model(kind);
+  results.study = run_study(question, progress, [&](ModelKind kind) -> std::unique_ptr<const Model> {
+    if (kind != ModelKind::dem) return make_model(kind);
+    auto model = std::make_unique<Grains>(grains, whole, effects, results.runs);
+    model->make_listed(whole.scenario, watch);
+    return model;
   });
   results.doubts = doubts_of_study(question, results.study, grains.keeping.record);
   return results;
@@ -114,8 +154,7 @@ GrainSideRuns run_grain_side(const Case& question, const StudyGrains& grains, co
                              const Progress& progress) {
   GrainSideRuns of;
   if (!grains.recorded) refuse_endless_runs(grains, question);
-  const auto model = grain_model(grains, question, effects, [&](const RecordedRun& run) { of.runs.push_back(run); });
-  sweep(*model, question.scenario, question.study.conditions, progress);
+  sweep(Grains(grains, question, effects, of.runs), question.scenario, question.study.conditions, progress);
   of.grains =
       grain_side(of.runs, question.study.conditions, grains.recorded ? grains.recorded->file : grains.keeping.record);
   return of;

@@ -13,7 +13,6 @@
 
 #include "compare/discrepancy/side.hpp"
 #include "compare/experiments/soil_bin_runs.hpp"
-#include "compare/recorded/merge.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/sweep/result_json.hpp"
 
@@ -31,15 +30,9 @@ struct StudyGrains {
   dem::DemSettings settings{};
   int packings = 1;
   RunKeeping keeping{};
-  std::vector<AskedRun> list{};           ///< of a record that is kept: its runs, made in this order (make_runs)
+  std::vector<RunSpec> list{};            ///< of a record that is kept: its runs, made in this order
   std::optional<NamedRecord> recorded{};  ///< answers without a run
 };
-
-/// The model dem. A run that the engine had to stop is an answer without solution, with what it said. Every run goes to
-/// `on_run`; a record that is begun keeps `whole`. `effects` must outlive the model. Throws what DemModel::check
-/// throws.
-std::unique_ptr<const Model> grain_model(const StudyGrains& grains, const Case& whole, const EffectVocabulary& effects,
-                                         const RunListener& on_run);
 
 struct StudyResults {
   std::vector<ModelAnswers> study{};
@@ -49,9 +42,10 @@ struct StudyResults {
 };
 
 /// Every model of the question at every condition, and what is doubtful in the answers; the step is left to step_of.
-/// `before`: each run of the list. A record that is begun keeps `whole`: the question with all its conditions.
+/// A run that the engine had to stop is an answer without solution, with what it said. `before`: each run of the list.
+/// A record that is begun keeps `whole`: the question with all its conditions. Throws what DemModel::check throws.
 StudyResults answer_study(const Case& question, const Case& whole, const StudyGrains& grains,
-                          const EffectVocabulary& effects, const BeforeRun& before = {}, const Progress& progress = {});
+                          const EffectVocabulary& effects, const Watch& watch = {}, const Progress& progress = {});
 
 /// The grains of a question as a side of a comparison, and the runs behind it.
 struct GrainSideRuns {

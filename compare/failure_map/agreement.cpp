@@ -183,6 +183,7 @@ std::optional<AgreementClause> agreement(const FailureQuestion& question, Failur
   std::optional<Box> box = largest_box(question, map, roles, grid);
   for (int round = 0; round < rounds && box && !was_run(map, box->most_doubtful); ++round) {
     add_row(question, box->most_doubtful, map);
+    if (question.waits()) return std::nullopt;
     box = largest_box(question, map, roles, grid);
   }
   if (!box) return std::nullopt;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/calibrate/experiment_store.hpp"
 #include "compare/design/gaussian_process.hpp"
 #include "compare/design/space_filling.hpp"
 #include "scenario/errors.hpp"
@@ -27,7 +26,8 @@ Samples samples_of(const FailureQuestion& question, const std::vector<FailureRow
 }
 
 void run(const FailureQuestion& question, const FailureMapOptions& options, const VectorXd& unit, FailureMap& map) {
-  if (options.progress) options.progress(static_cast<int>(map.rows.size()), options.first + options.at_boundary);
+  const std::size_t done = map.rows.size(), all = static_cast<std::size_t>(options.first + options.at_boundary);
+  tell(options.watch, fmt::format("condition {} of {}", done + 1, all), done, all);
   const VectorXd values = from_unit(question.factors, unit);
   map.rows.push_back({values, question.difference(values)});
 }
@@ -111,7 +111,7 @@ Estimate FailureMap::at(const FailureQuestion& question, const VectorXd& values)
 
 void add_row(const FailureQuestion& question, const VectorXd& values, FailureMap& map, std::uint64_t seed) {
   map.rows.push_back({values, question.difference(values)});
-  learn(question, seed, map);
+  if (!question.waits()) learn(question, seed, map);
 }
 
 FailureMap map_failures(const FailureQuestion& question, const FailureMapOptions& options) {
@@ -121,14 +121,15 @@ FailureMap map_failures(const FailureQuestion& question, const FailureMapOptions
   std::vector<VectorXd> points;
   for (Index i = 0; i < start.rows(); ++i) points.push_back(start.row(i));
   const auto run_together = [&] {
-    ask_together(points, [&](const VectorXd& unit) { run(question, options, unit, map); });
+    for (const VectorXd& unit : points) run(question, options, unit, map);
+    return !question.waits();
   };
-  run_together();
+  if (!run_together()) return map;
   const MatrixXd cloud = latin_hypercube(options.cloud, d, options.seed + 1);
   for (int k = 0; k < options.at_boundary; k += options.at_once) {
     points = boundary_points(question, options, map, cloud, std::min(options.at_once, options.at_boundary - k));
     if (points.empty()) break;
-    run_together();
+    if (!run_together()) return map;
   }
   learn(question, options.seed, map);
   return map;

@@ -14,6 +14,7 @@
 
 #include "compare/design/factor.hpp"
 #include "compare/design/gaussian_process.hpp"
+#include "compare/recorded/watch.hpp"
 
 namespace soilbin::compare {
 
@@ -27,6 +28,8 @@ struct FailureQuestion {
   std::vector<Factor> factors;  ///< values in SI
   PullDifference difference;    ///< nothing where either model has no answer
   double tolerance = 0.10;      ///< share of the load beyond which the models disagree
+  /// Whether differences that were asked for are still to come from elsewhere: then no other is asked for.
+  std::function<bool()> waits = [] { return false; };
 };
 
 struct FailureMapOptions {
@@ -37,8 +40,8 @@ struct FailureMapOptions {
   /// 2010, Kriging is well-suited to parallelize optimization). 1: each is chosen when the one before is known.
   int at_once = 1;
   std::uint64_t seed = 1;
-  int cloud = 2000;                                     ///< points among which these are chosen
-  std::function<void(int done, int total)> progress{};  ///< before each run; may throw
+  int cloud = 2000;  ///< points among which these are chosen
+  Watch watch{};     ///< of each run: "condition 3 of 36"
 };
 
 /// A condition that was run.
@@ -63,8 +66,8 @@ struct FailureMap {
 /// Runs one more condition and learns from it.
 void add_row(const FailureQuestion& question, const Eigen::VectorXd& values, FailureMap& map, std::uint64_t seed = 1);
 
-/// Throws NoSolution where too few conditions have an answer of both models; ExperimentsAsked of all `first` runs or of
-/// one batch, where the question's runs only ask.
+/// Throws NoSolution where too few conditions have an answer of both models. Where the question waits, after all
+/// `first` runs or one batch, the map is not finished.
 FailureMap map_failures(const FailureQuestion& question, const FailureMapOptions& options = {});
 
 /// What the box does with a factor.

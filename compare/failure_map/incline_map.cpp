@@ -92,12 +92,12 @@ FailureQuestion failure_question(const InclineMap& map, const VirtualTest& grain
   question.name = name_of(map.incline);
   question.factors = map.factors;
   question.tolerance = tolerance;
+  question.waits = [&grains] { return grains.waits(); };
   question.difference = [map, &grains, &store, seed, model = std::shared_ptr(make_model(ModelKind::bekker_wong))](
                             const VectorXd& values) -> std::optional<Estimate> {
     const std::optional<double> analytic = analytic_pull(map, *model, values);
     if (!analytic) return std::nullopt;
-    const std::optional<Experiment> run =
-        grains.run ? experiment_at(grains, values, seed, store).first : store.find(grains, values, seed);
+    const std::optional<Experiment> run = obtain(grains, {values, seed}, store);
     if (!run || run->results.empty()) return std::nullopt;
     const double load = values[map_load];
     return Estimate{(*analytic - run->results.front().value) / load, run->results.front().std_error / load};
@@ -118,11 +118,11 @@ std::vector<FreshCheck> check_fresh(const FailureQuestion& question, const Failu
   std::vector<FreshCheck> checks;
   for (Index i = 0; i < fresh.rows(); ++i)
     checks.push_back({from_unit(question.factors, fresh.row(i)), {}, std::nullopt});
-  ask_together(checks, [&](FreshCheck& check) {
+  for (FreshCheck& check : checks) {
     check.predicted = map.at(question, check.values);
     check.predicted.std_error = std::hypot(check.predicted.std_error, between_runs);
     check.found = question.difference(check.values);
-  });
+  }
   return checks;
 }
 

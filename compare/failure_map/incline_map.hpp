@@ -35,7 +35,7 @@ std::vector<Target> grain_channels();
 
 /// Drawbar pull of the analytic model (with the scenario's effects) less that of the grains over the load. The error is
 /// that of the run of grains on one packing: the soil's values are taken as declared, and the scatter between packings
-/// is for the surrogate to find. Where `grains` has no `run`, conditions that the store doesn't hold have no answer.
+/// is for the surrogate to find. What obtain gives nothing for has no answer.
 /// `grains` and `store` must outlive the question. seed: of the packing.
 FailureQuestion failure_question(const InclineMap& map, const VirtualTest& grains, ExperimentStore& store,
                                  std::uint64_t seed, double tolerance);

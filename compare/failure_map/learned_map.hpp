@@ -28,7 +28,8 @@ struct MapLearning {
   std::uint64_t packing = 1;  ///< seed of the bed
 };
 
-/// Throws what map_failures throws. `grains` and `store` must outlive the result.
+/// Throws what map_failures throws. Where `grains` waits for experiments, the result is not finished. `grains` and
+/// `store` must outlive the result.
 FailureMapResult learn_map(const InclineMap& map, const VirtualTest& grains, ExperimentStore& store,
                            const MapLearning& how);
 

@@ -44,15 +44,15 @@ void check_words(const std::set<std::string>& hide) {
                                    did_you_mean(word, right), listed(right)));
 }
 
-Campaign empty_campaign(const Scenario& scenario, const Disclosure& disclosed, const OperatingCondition& first) {
+Campaign empty_campaign(const Scenario& scenario, const CampaignOptions& told, const OperatingCondition& first) {
   Campaign campaign;
-  campaign.name = disclosed.name;
+  campaign.name = told.name;
   campaign.wheel = scenario.tire;
   campaign.wheel.name.clear();
-  if (disclosed.hide.contains("lugs")) campaign.wheel.lugs = {};
+  if (told.hide.contains("lugs")) campaign.wheel.lugs = {};
   campaign.soil = *scenario.soil.semi_empirical;
-  if (!disclosed.hide.contains("bin")) campaign.bin = scenario.bin;
-  campaign.effects = disclosed.effects;
+  if (!told.hide.contains("bin")) campaign.bin = scenario.bin;
+  campaign.effects = told.effects;
   campaign.force_frame = first.force_frame;
   campaign.slip_by = first.slip_by;
   return campaign;
@@ -68,31 +68,40 @@ std::vector<std::string> things_to_hide() {
   return things;
 }
 
-CampaignOfRecords tell_campaign(const Scenario& scenario, const std::vector<RecordedRun>& runs,
-                                const Disclosure& disclosed) {
-  check_words(disclosed.hide);
+std::vector<RecordedRun> joined_runs(const std::vector<NamedRecord>& records) {
+  std::vector<RecordedRun> runs;
+  for (const auto& [file, record] : records) {
+    refuse_other_inputs(record, records.front().record.inputs, file);
+    runs.insert(runs.end(), record.runs.begin(), record.runs.end());
+  }
+  return runs;
+}
+
+CampaignOfRecords campaign_from_runs(const Scenario& scenario, const std::vector<RecordedRun>& runs,
+                                     const CampaignOptions& told) {
+  check_words(told.hide);
   if (!scenario.soil.semi_empirical)
     throw InputError(
         fmt::format("soil '{}' has no semi-empirical values, which a campaign declares\n  hint: soilbin bevameter "
                     "gives them from the grains; --soil takes the file",
                     scenario.soil.name));
   CampaignOfRecords made;
-  if (!runs.empty()) made.campaign = empty_campaign(scenario, disclosed, runs.front().answer.at);
+  if (!runs.empty()) made.campaign = empty_campaign(scenario, told, runs.front().answer.at);
   const bool sideways = std::ranges::any_of(runs, has_side);
   std::vector<OperatingCondition> setpoints;
-  for (const std::size_t index : drawn_order(runs.size(), disclosed.seed)) {
+  for (const std::size_t index : drawn_order(runs.size(), told.seed)) {
     const RecordedRun& run = runs[index];
     if (!run.answer.result) {
       ++made.without_result;
       continue;
     }
-    if (disclosed.only_steady && !run.steady) {
+    if (told.only_steady && !run.steady) {
       ++made.not_steady;
       continue;
     }
     Run row;
     row.at = run.answer.at;
-    hide_conditions(disclosed.hide, row);
+    hide_conditions(told.hide, row);
     row.setpoint = fmt::format("S{:02}", setpoint_of(row.at, setpoints));
     row.at.run = static_cast<int>(made.runs.size()) + 1;
     for (const ChannelView& channel : channel_views)
@@ -102,6 +111,36 @@ CampaignOfRecords tell_campaign(const Scenario& scenario, const std::vector<Reco
   }
   if (made.runs.empty()) throw InputError("no run is left to tell of");
   return made;
+}
+
+std::string hidden_in_words(const std::vector<std::string>& hide, const std::vector<std::string>& effects) {
+  std::string text = hide.empty() ? "Nothing of the runs' conditions, wheel or bin was left out."
+                                  : "Left out, as if it weren't there: " + listed(hide) + ".";
+  if (!effects.empty()) text += " The declared model has " + listed(effects) + ".";
+  return text;
+}
+
+std::string provenance_text(const std::vector<NamedRecord>& records, const CampaignOfRecords& made,
+                            const std::string& hidden, const MadeBy& by) {
+  std::string text = fmt::format(
+      "# {}\n\nRuns of soilbin's virtual soil bin, told as a campaign. {}\n\nMade by soilbin {} ({}) with\n\n    "
+      "{}\n\n",
+      made.campaign.name, hidden, by.version, by.source, by.command);
+  text += "| record | hash of its inputs | begun by |\n|---|---|---|\n";
+  for (const auto& [file, record] : records)
+    text +=
+        fmt::format("| {} | {} | soilbin {} |\n", file.filename().string(), inputs_key(record.inputs), record.soilbin);
+  text += "\nWhat the runs follow from beside condition and packing, in SI:\n\n```\n";
+  for (const auto& [name, value] : records.front().record.inputs) text += name + " " + value + "\n";
+  text +=
+      "```\n\n| run | condition in the grains | packing (seed of the bed) | steady | drift | sources |\n"
+      "|---|---|---|---|---|---|\n";
+  for (std::size_t k = 0; k < made.runs.size(); ++k) {
+    const RecordedRun& run = made.runs[k];
+    text += fmt::format("| {} | {} | {} | {} | {:.3g} | {} |\n", k + 1, in_words(run.answer.at), run.packing,
+                        run.steady ? "yes" : "no", run.drift, run.source);
+  }
+  return text;
 }
 
 }  // namespace soilbin::compare

@@ -8,11 +8,11 @@
 #include <optional>
 #include <tuple>
 
+#include "compare/recorded/kept_file.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/sealed_json.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
-#include "scenario/atomic_file.hpp"
 #include "scenario/checksum.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/quantity.hpp"
@@ -76,7 +76,7 @@ void flow_fields(Visitor& v, Flow& flow) {
   v.numbers("solid", flow.solid, "-", "mean volume of grains with their centres in a cell, over the cell's");
 }
 
-/// What every run has, with a result or without.
+/// Members of every run, with a result or without.
 template <class Visitor, class Run>
 void run_fields(Visitor& v, Run& run) {
   v.whole("packing", run.packing, "seed of the bed");
@@ -84,7 +84,7 @@ void run_fields(Visitor& v, Run& run) {
   v.number("seconds", run.seconds, "s", "that it took on the clock on the wall");
 }
 
-/// What a run with a result has beside the result itself.
+/// Members of a run with a result, beside the result itself.
 template <class Visitor, class Run>
 void outcome_fields(Visitor& v, Run& run) {
   stress_fields(v, *run.answer.result);
@@ -166,7 +166,7 @@ std::string runs_text(const char* key, const std::vector<RecordedRun>& runs) {
   return text + "\n  ]";
 }
 
-/// What the runs answer, as its members are sealed together.
+/// The question that the runs answer, as its members are sealed together.
 Json head_json(const Record& record) {
   Json inputs = Json::object();
   for (const auto& [name, value] : record.inputs) inputs[name] = value;
@@ -175,7 +175,7 @@ Json head_json(const Record& record) {
           {"inputs", inputs},          {"case", lines_json(record.question)}};
 }
 
-/// Of a head that has no seal, as from before there were any, the inputs still have their key.
+/// Checks the seal of all above the runs, and the key of the inputs, which heads from before there were seals have too.
 Seal check_head(const Json& document, const Record& record, const std::string& file) {
   Json head = Json::object();
   for (const auto& [key, value] : document.items())
@@ -223,13 +223,6 @@ void mend_efficiencies(Record& record) {
       result->tractive_efficiency = tractive_efficiency(*result, read_number(*radius).value_or(not_a_number));
 }
 
-std::size_t add_missing(std::vector<RecordedRun>& runs, const std::vector<RecordedRun>& others) {
-  const std::size_t before = runs.size();
-  for (const RecordedRun& run : others)
-    if (find_run(runs, run.answer.at, run.packing) == nullptr) runs.push_back(run);
-  return runs.size() - before;
-}
-
 }  // namespace
 
 std::string inputs_key(const Inputs& inputs) {
@@ -260,7 +253,12 @@ Record parse_record(const SourceText& source) {
   return record;
 }
 
-Record read_record(const std::filesystem::path& path) { return parse_record(read_source_text(path, largest_json)); }
+Record read_record(const std::filesystem::path& path) {
+  const std::vector<SourceText> documents = kept_documents(path);
+  Record record = parse_record(documents.front());
+  for (std::size_t k = 1; k < documents.size(); ++k) add_missing_runs(record, parse_record(documents[k]));
+  return record;
+}
 
 std::string record_text(const Record& record) {
   Json head = head_json(record);
@@ -279,8 +277,7 @@ void put_in_order(Record& record) {
   const auto before = [](const RecordedRun& a, const RecordedRun& b) {
     return std::tie(a.packing, a.answer.at) < std::tie(b.packing, b.answer.at);
   };
-  for (RunList list : {&Record::runs, &Record::half_step})
-    std::stable_sort((record.*list).begin(), (record.*list).end(), before);
+  for (const bool half : {false, true}) std::ranges::stable_sort(record.list(half), before);
 }
 
 std::string unsealed_note(const Record& record, const std::filesystem::path& file) {
@@ -342,31 +339,26 @@ void refuse_other_inputs(const Record& record, const Inputs& asked, const std::f
       file.string(), differing));
 }
 
-bool answers(const RecordedRun& run, const OperatingCondition& at, std::uint64_t packing) {
-  return run.packing == packing && alike(run.answer.at, at);
+std::string in_words(const RunSpec& spec) {
+  return fmt::format("{}, bed sample {}{}", in_words(spec.at), spec.packing,
+                     spec.half_step ? ", half the time step" : "");
 }
 
-const RecordedRun* find_run(const std::vector<RecordedRun>& runs, const OperatingCondition& at, std::uint64_t packing) {
-  const auto found = std::ranges::find_if(runs, [&](const RecordedRun& run) { return answers(run, at, packing); });
-  return found == runs.end() ? nullptr : &*found;
+bool answers(const RecordedRun& run, const RunSpec& spec) {
+  return run.packing == spec.packing && alike(run.answer.at, spec.at);
 }
 
-std::size_t add_missing_runs(Record& record, const Record& other) {
-  return add_missing(record.runs, other.runs) + add_missing(record.half_step, other.half_step);
+const RecordedRun* find_run(const Record& record, const RunSpec& spec) {
+  for (const RecordedRun& run : record.list(spec.half_step))
+    if (answers(run, spec)) return &run;
+  return nullptr;
 }
 
-void add_run(const std::filesystem::path& file, const Record& begin, RecordedRun run, RunList list, Writers writers) {
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  make_folder(folder);
-  std::optional<FileLock> lock;  // held while the file is read and replaced
-  if (writers == Writers::several) lock.emplace(folder, FileLock::Wait::until_free);
-  Record record = std::filesystem::exists(file) ? read_record(file) : begin;
-  refuse_other_inputs(record, begin.inputs, file);
-  if (add_missing(record.*list, {run}) + add_missing_runs(record, begin) > 0) {
-    put_in_order(record);
-    write_file_atomically(file, record_text(record));
-  }
-  if (run.on_saved) run.on_saved();
+void add_missing_runs(Record& record, const Record& other) {
+  for (const bool half : {false, true})
+    for (const RecordedRun& run : other.list(half))
+      if (find_run(record, {run.answer.at, run.packing, half}) == nullptr) record.list(half).push_back(run);
+  put_in_order(record);
 }
 
 std::string notes_on(const std::vector<RecordedRun>& runs) {

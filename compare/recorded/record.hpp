@@ -2,7 +2,7 @@
 // docs/guide/recorded.md. Whoever compares answers gets them from the file as if the model had run.
 //
 //   const Record record = read_record("cases/studies/recorded/paper-straight.json");
-//   if (const RecordedRun* run = find_run(record.runs, at, 1))  // the condition on the bed of seed 1
+//   if (const RecordedRun* run = find_run(record, {at, 1}))  // the condition on the bed of seed 1
 //     if (run->answer.result) run->answer.result->drawbar_pull.value;  // [N]
 #pragma once
 
@@ -16,13 +16,23 @@
 
 #include "compare/sweep/answers.hpp"
 #include "dem/rig/wheel_outcome.hpp"
-#include "scenario/file_lock.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::compare {
 
-/// What an answer depends on beside the condition and the packing, as name and value: "tire.radius", "0.496".
+/// The inputs of an answer beside the condition and the packing, as name and value: "tire.radius", "0.496".
 using Inputs = std::vector<std::pair<std::string, std::string>>;
+
+/// A run of one wheel in one bin of one soil, which are the record's inputs: what is asked for, and what it is found
+/// by.
+struct RunSpec {
+  OperatingCondition at;
+  std::uint64_t packing = 1;  ///< seed of the bed
+  bool half_step = false;     ///< at half the time step: belongs to Record::half_step
+};
+
+/// "load 4 kN, slip 20 %, bed sample 2"; with ", half the time step" where it is that.
+std::string in_words(const RunSpec& spec);
 
 /// One run: a condition on one packing of the bed.
 struct RecordedRun {
@@ -38,11 +48,11 @@ struct RecordedRun {
   dem::SoilFlow flow;
   /// Whether a seal in the file vouches for it: not for runs of files from before there were seals. A new run gets one.
   bool sealed = true;
-  /// To be called once the answer is where it stays: removes what the run could be had again from; not in the file.
+  /// Removes the restart that the run could be had again from; to be called once the answer is kept. Not in the file.
   std::function<void()> on_saved{};
 };
 
-/// What a file holds.
+/// A file of runs, and the question that they answer.
 struct Record {
   std::string soilbin;   ///< version that began it
   std::string model;     ///< "dem"
@@ -51,6 +61,9 @@ struct Record {
   std::vector<RecordedRun> runs;
   std::vector<RecordedRun> half_step{};  ///< some of them again, on the same bed at half the time step (step_pair.hpp)
   bool sealed = true;                    ///< whether a seal vouches for all above the runs
+
+  std::vector<RecordedRun>& list(bool half) { return half ? half_step : runs; }
+  const std::vector<RecordedRun>& list(bool half) const { return half ? half_step : runs; }
 };
 
 inline constexpr const char* recorded_format = "soilbin-recorded/1";
@@ -58,6 +71,7 @@ inline constexpr const char* recorded_format = "soilbin-recorded/1";
 /// Throws InputError with file and place for everything that is no record, and for a run, or the inputs, whose seal
 /// doesn't fit: something changed it after it was written.
 Record parse_record(const SourceText& source);
+/// The file's, and what its journal has beside (kept_file.hpp).
 Record read_record(const std::filesystem::path& path);
 
 /// The runs that no seal vouches for, in words for people; "" where all have one.
@@ -85,26 +99,15 @@ std::string inputs_key(const Inputs& inputs);
 void refuse_other_inputs(const Record& record, const Inputs& asked, const std::filesystem::path& file,
                          const std::vector<std::string>& only = {});
 
-/// Whether this is the run of a condition on a packing.
-bool answers(const RecordedRun& run, const OperatingCondition& at, std::uint64_t packing);
+bool answers(const RecordedRun& run, const RunSpec& spec);
 
-/// The run of a condition on a packing; nullptr where there is none.
-const RecordedRun* find_run(const std::vector<RecordedRun>& runs, const OperatingCondition& at, std::uint64_t packing);
+/// Adds the runs of another record that this one lacks, at both steps, and puts all in order.
+void add_missing_runs(Record& record, const Record& other);
 
-/// Adds the runs of another record that this one lacks, at both steps; their number.
-std::size_t add_missing_runs(Record& record, const Record& other);
+/// The run of a record that answers a spec; nullptr where there is none.
+const RecordedRun* find_run(const Record& record, const RunSpec& spec);
 
-/// Which of a record's lists.
-using RunList = std::vector<RecordedRun> Record::*;
-
-/// Adds a run, and those of `begin` that it lacks, to the file, which is begun with `begin` where there is none: it is
-/// read again, put in order and replaced as a whole: whoever is stopped meanwhile leaves the old file or the new one,
-/// and whoever reads it sees one of the two. A run takes minutes, the file a fraction of a second. A run that is there
-/// already stays. With the run in the file, it is safe (on_saved).
-void add_run(const std::filesystem::path& file, const Record& begin, RecordedRun run, RunList list = &Record::runs,
-             Writers writers = Writers::several);
-
-/// What to know about runs beside their results: which did not become steady, how far packings differ, what it cost.
+/// Notes on runs beside their results: which did not become steady, how far packings differ, what it cost.
 std::string notes_on(const std::vector<RecordedRun>& runs);
 
 }  // namespace soilbin::compare

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "compare/recorded/merge.hpp"
+#include "compare/recorded/run_store.hpp"
 #include "compare/report/table.hpp"
 
 namespace soilbin::compare {

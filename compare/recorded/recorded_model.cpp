@@ -6,11 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <memory>
 
 #include "compare/measured/channels.hpp"
 #include "compare/sweep/varying.hpp"
-#include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -89,23 +87,7 @@ std::vector<Runs> by_condition(const std::vector<RecordedRun>& runs) {
 
 constexpr double least_freedom = 4;
 
-/// What a run answers, in a line: for a person who has nothing else of it.
-std::string in_a_line(const RecordedRun& run) {
-  std::string line = fmt::format("{}, bed sample {}:", in_words(run.answer.at), run.packing);
-  if (!run.answer.result) return line + " " + run.answer.error;
-  for (const TractionChannel& channel : traction_channels) {
-    const Estimate& value = (*run.answer.result).*channel.predicted;
-    line += fmt::format(" {} {:.6g} ± {:.2g} {};", channel.title, value.value * channel.per_si,
-                        value.std_error * channel.per_si, channel.unit);
-  }
-  return line.substr(0, line.size() - 1);
-}
-
-}  // namespace
-
-namespace {
-
-/// What packings say of their mean: it, and its standard error by their scatter and by their own errors.
+/// The mean over packings, and its standard error by their scatter and by their own errors.
 struct OverPackings {
   double n, mean, by_scatter, by_own;
 };
@@ -184,38 +166,9 @@ TractionResult mean_of_packings(const Runs& runs) {
   return mean;
 }
 
-RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run, RunList list, Writers writers) {
-  const auto seen = std::make_shared<Record>(empty);  // the file as it was read last
-  const auto look = [=] {
-    if (!std::filesystem::exists(file)) return;
-    Record there = read_record(file);
-    refuse_other_inputs(there, empty.inputs, file);
-    if (writers == Writers::one) add_missing_runs(there, *seen);
-    *seen = std::move(there);
-  };
-  look();
-  return [=](const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
-    if (const RecordedRun* known = find_run((*seen).*list, at, packing)) return *known;
-    look();  // others may have added to it
-    if (const RecordedRun* known = find_run((*seen).*list, at, packing)) return *known;
-    RecordedRun fresh = run(scenario, at, packing);
-    // Without a lock a second process may have written over ours: each writes all that it knows of.
-    try {
-      add_run(file, writers == Writers::one ? *seen : empty, fresh, list, writers);
-    } catch (const CannotWrite& error) {  // where its restart can't be written either, this is all that is left of it
-      throw CannotWrite(fmt::format("{}\n  the run that is not in it: {}", error.what(), in_a_line(fresh)));
-    }
-    ((*seen).*list).push_back(fresh);
-    return fresh;
-  };
-}
-
 TractionResult RunOnPackings::evaluate(const Scenario& scenario, const OperatingCondition& at) const {
   std::vector<RecordedRun> runs;
-  for (const std::uint64_t packing : packings_) {
-    runs.push_back(run_(scenario, at, packing));
-    if (on_run_) on_run_(runs.back());
-  }
+  for (const std::uint64_t packing : packings_) runs.push_back(run_(scenario, {at, packing}));
   Runs all;
   for (const RecordedRun& run : runs) all.push_back(&run);
   return mean_of_packings(all);
@@ -230,8 +183,6 @@ std::vector<const RecordedRun*> RecordedModel::runs(const OperatingCondition& at
 
 TractionResult RecordedModel::evaluate(const Scenario&, const OperatingCondition& at) const {
   const Runs found = runs(at);
-  for (const RecordedRun* run : found)
-    if (on_run_) on_run_(*run);
   if (found.empty()) throw NoSolution("not in the record: no run at " + in_words(at));
   return mean_of_packings(found);
 }

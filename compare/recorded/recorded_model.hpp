@@ -1,4 +1,4 @@
-// Models that answer by runs on several packings of a bed: run now, taken from a record, or both.
+// Models that answer by runs on several packings of a bed: of a record, or of whoever makes them.
 //
 //   const RecordedModel grains(read_record("cases/studies/recorded/paper-straight.json"));
 //   const OperatingCondition at = grains.record().runs.front().answer.at;
@@ -12,18 +12,6 @@
 #include "compare/recorded/step_pair.hpp"
 
 namespace soilbin::compare {
-
-/// The run of a condition on a packing. A condition without solution is a run whose answer carries the error; what is
-/// refused is an InputError.
-using RunOnce = std::function<RecordedRun(const Scenario&, const OperatingCondition&, std::uint64_t packing)>;
-
-/// Gets every run behind an answer, before the model's evaluate returns.
-using RunListener = std::function<void(const RecordedRun&)>;
-
-/// Takes a run from the file where it is there, else runs it and adds it at once. `empty` is the record that the file
-/// is begun with. Throws InputError where the file's inputs differ.
-RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run, RunList list = &Record::runs,
-                Writers writers = Writers::several);
 
 /// Mean of the estimates of packings, at least one. The standard error is the scatter between packings over the root of
 /// their number or, where that is larger, what their own errors give: with two or three packings the scatter is poorly
@@ -51,17 +39,19 @@ struct PackingScatter {
   double freedom = 0.0;  ///< packings beyond the first of each condition
 };
 
-/// Of runs at any conditions; nothing where none has several packings or the runs state no error.
+/// The scatter of runs at any conditions; nothing where none has several packings or the runs state no error.
 std::optional<PackingScatter> packing_scatter(const std::vector<RecordedRun>& runs, Estimate TractionResult::*channel);
 
-/// Its factor, of a record; no value with less than four degrees of freedom.
+/// The factor of that scatter in a record; no value with less than four degrees of freedom.
 std::optional<double> packing_factor(const Record& record, Estimate TractionResult::*channel);
 
-/// Runs each condition on every packing.
+/// Answers each condition by its runs on several packings, which are made, or found in a store. What a run refuses is
+/// an InputError.
 class RunOnPackings : public Model {
  public:
-  RunOnPackings(std::string name, std::vector<std::uint64_t> packings, RunOnce run, RunListener on_run = {})
-      : name_(std::move(name)), packings_(std::move(packings)), run_(std::move(run)), on_run_(std::move(on_run)) {}
+  using Run = std::function<RecordedRun(const Scenario&, const RunSpec&)>;
+  RunOnPackings(std::string name, std::vector<std::uint64_t> packings, Run run)
+      : name_(std::move(name)), packings_(std::move(packings)), run_(std::move(run)) {}
 
   std::string name() const override { return name_; }
   /// Throws what mean_of_packings and the run throw.
@@ -70,28 +60,25 @@ class RunOnPackings : public Model {
  private:
   std::string name_;
   std::vector<std::uint64_t> packings_;
-  RunOnce run_;
-  RunListener on_run_;
+  Run run_;
 };
 
 /// Answers from a record alone. The scenario isn't looked at: refuse_other_inputs says whether it is the record's.
 class RecordedModel : public Model {
  public:
-  explicit RecordedModel(Record record, RunListener on_run = {})
-      : record_(std::move(record)), on_run_(std::move(on_run)) {}
+  explicit RecordedModel(Record record) : record_(std::move(record)) {}
 
   std::string name() const override { return record_.model; }
   const Record& record() const { return record_; }
   /// The runs of a condition, on all packings there are.
   std::vector<const RecordedRun*> runs(const OperatingCondition& at) const;
-  /// Their mean_of_packings. Throws NoSolution where the condition isn't in the record, and says so.
+  /// The mean_of_packings of a condition's runs. Throws NoSolution where the record has none.
   TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override;
   /// Whether its answers hang on the time step (step_pair.hpp).
   std::vector<std::string> doubts() const override { return step_doubts(record_); }
 
  private:
   Record record_;
-  RunListener on_run_;
 };
 
 }  // namespace soilbin::compare

@@ -40,7 +40,7 @@ std::vector<StepPair> step_pairs(const Record& record) {
   }
   std::vector<StepPair> pairs;
   for (const RecordedRun& half : record.half_step)
-    if (const RecordedRun* whole = find_run(record.runs, half.answer.at, half.packing))
+    if (const RecordedRun* whole = find_run(record, {half.answer.at, half.packing}))
       pairs.push_back({whole, &half, difference_of(whole->answer, half.answer, factors), widened});
   return pairs;
 }

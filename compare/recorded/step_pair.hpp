@@ -26,7 +26,8 @@ struct StepPair {
   bool widened = false;  ///< whether any of the errors is
 };
 
-/// Of three channels alike in truth, one differs by more in one pair of twenty (normal errors, Bonferroni).
+/// Largest difference of alike channels [standard errors]: of three that are alike in truth, one exceeds it in one pair
+/// of twenty (normal errors, Bonferroni).
 inline constexpr double step_alike = 2.4;
 
 /// The pairs that a record carries.

@@ -15,7 +15,6 @@
 namespace soilbin::python {
 namespace {
 
-using compare::CalibrationProgress;
 using compare::CalibrationRun;
 using compare::Candidate;
 using compare::ContactKind;
@@ -76,7 +75,7 @@ std::vector<NamedRun> runs_of(const NamedCalibration& answer) {
   for (const CalibrationRun& run : answer.found.runs) {
     const compare::Experiment& e = run.experiment;
     out.push_back({compare::stage_name(run.stage), e.seed, by_name(answer.test.factors, e.values),
-                   by_name(answer.test.targets, e.results), e.error, e.seconds, run.from_store});
+                   by_name(answer.test.targets, e.results), e.error, e.seconds, e.from_store});
   }
   return out;
 }
@@ -159,19 +158,19 @@ std::vector<compare::Factor> factors_of(ContactKind kind, const Bounds& vary, co
 NamedCalibration calibrate(const Soil& soil, ContactQuestion question, compare::CalibrationOptions options,
                            const std::filesystem::path& store, const py::object& progress) {
   Watch watch(progress);
-  CalibrationProgress at{compare::Stage::design, 0, options.most_runs, 0, 0};
-  const auto tell = [&](double share, std::string_view doing) {
-    watch((at.done + share) / std::max(1, at.at_most),
-          fmt::format("{}, run {} of at most {}{}", compare::stage_name(at.stage), at.done + 1, at.at_most, doing));
+  std::string run;
+  double done = 0;
+  const auto tell = [&](double share, const std::string& doing) {
+    watch(done + share / options.most_runs, run + doing);
   };
   question.how.progress = [&](const dem::Progress& p) { tell(std::min(p.done, 0.999), fmt::format(", {}", p.stage)); };
-  options.progress = [&](const CalibrationProgress& now) { at = now, tell(0, ""); };
+  options.watch = [&](const dem::Progress& now) { run = now.stage, done = now.done, tell(0, ""); };
   NamedCalibration answer{soil, question.kind, compare::contact_test(soil, question), options, {}};
   unlocked([&] {
     compare::ExperimentStore kept(store);
     answer.found = compare::calibrate(answer.test, options, kept);
   });
-  answer.test.run = nullptr, answer.options.progress = nullptr;
+  answer.test.run = nullptr, answer.options.watch = nullptr;
   return answer;
 }
 

@@ -51,15 +51,12 @@ void bind_recorded(py::module_& module) {
          const std::vector<EffectName>& effects, const std::optional<Soil>& soil, const std::string& name,
          bool only_steady, std::uint64_t seed) {
         if (records.empty()) throw InputError("records: at least one");
-        std::vector<RecordedRun> runs;
-        for (std::size_t k = 0; k < records.size(); ++k) {
-          compare::refuse_other_inputs(records[k], records.front().inputs, fmt::format("record {}", k + 1));
-          runs.insert(runs.end(), records[k].runs.begin(), records[k].runs.end());
-        }
+        std::vector<compare::NamedRecord> named;
+        for (const Record& record : records) named.push_back({fmt::format("record {}", named.size() + 1), record});
         Scenario scenario = case_of(records.front()).scenario;
         if (soil) scenario.soil = *soil;
-        compare::Disclosure disclosed{name, {hide.begin(), hide.end()}, effects_of(effects), only_steady, seed};
-        return compare::tell_campaign(scenario, runs, disclosed).campaign;
+        const compare::CampaignOptions told{name, {hide.begin(), hide.end()}, effects_of(effects), only_steady, seed};
+        return compare::campaign_from_runs(scenario, compare::joined_runs(named), told).campaign;
       },
       py::arg("records"), py::arg("hide") = std::vector<std::string>{}, py::arg("effects") = std::vector<EffectName>{},
       py::arg("soil") = py::none(), py::arg("name") = "told", py::arg("only_steady") = false, py::arg("seed") = 1,

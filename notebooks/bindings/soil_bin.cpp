@@ -45,8 +45,8 @@ class SoilBin {
                          const py::object& progress, bool half_step) const {
     if (packings < 1) throw InputError("packings: 1 or more");
     if (question.study.conditions.empty()) throw InputError("the case has no condition to run");
-    using compare::TestStep;
-    const std::vector<compare::AskedRun> runs = compare::runs_of(question, settings_, packings, half_step);
+    const std::vector<compare::RunSpec> runs = compare::specs(question, settings_, packings, half_step);
+    compare::check_runs(question, settings_);
     Watch watch(progress);
     std::size_t at_run = 0;
     DemSettings settings = settings_;
@@ -54,11 +54,11 @@ class SoilBin {
       watch((static_cast<double>(at_run) + std::min(p.done, 0.999)) / static_cast<double>(runs.size()),
             fmt::format("run {} of {}, {}", at_run + 1, runs.size(), p.stage));
     };
-    compare::RunKeeping keeping;
-    keeping.record = file, keeping.version = SOILBIN_VERSION, keeping.source = source_state();
+    const compare::RunKeeping keeping{.record = file, .version = SOILBIN_VERSION, .source = source_state()};
     unlocked([&] {
-      compare::make_runs(runs, settings, question, effect_vocabulary(), keeping,
-                         [&](std::size_t place, const compare::AskedRun&) { at_run = place; });
+      compare::RunStore store = compare::store_of(settings, question, effect_vocabulary(), keeping);
+      compare::SoilBinRuns bin(settings, keeping);
+      for (; at_run < runs.size(); ++at_run) obtain(runs[at_run], question.scenario, store, bin);
     });
     return compare::read_record(file);
   }

@@ -132,8 +132,8 @@ TEST(Calibration, StoppedAndResumedIsTheSameAndDoesNoWorkTwice) {
   struct Stopped {};
   CalibrationOptions stopping;
   for (const int after : {3, 7, 11}) {
-    stopping.progress = [after](const CalibrationProgress& progress) {
-      if (progress.done == after) throw Stopped();
+    stopping.watch = [after](const dem::Progress& progress) {
+      if (std::lround(30 * progress.done) == after) throw Stopped();
     };
     ExperimentStore store(folder / "store.json");
     EXPECT_THROW(calibrate(board(0.2 * degree, &calls_parts), stopping, store), Stopped);
@@ -144,7 +144,7 @@ TEST(Calibration, StoppedAndResumedIsTheSameAndDoesNoWorkTwice) {
   EXPECT_EQ(calls_parts, calls_whole);
   EXPECT_EQ(resumed.best.values, whole.best.values);
   EXPECT_EQ(resumed.best.chance, whole.best.chance);
-  EXPECT_TRUE(resumed.runs[10].from_store);
+  EXPECT_TRUE(resumed.runs[10].experiment.from_store);
 }
 
 TEST(Calibration, AnotherTestDoesNotTakeFromTheStore) {

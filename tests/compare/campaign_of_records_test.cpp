@@ -42,7 +42,7 @@ const Scenario& sand_scenario() {
 }
 
 TEST(CampaignOfRecords, HasARowForEachRunAndKnowsRerunsByTheirConditions) {
-  const CampaignOfRecords told = tell_campaign(sand_scenario(), on_a_slope(), {.name = "made"});
+  const CampaignOfRecords told = campaign_from_runs(sand_scenario(), on_a_slope(), {.name = "made"});
   ASSERT_EQ(told.campaign.runs.size(), 3U);
   ASSERT_EQ(told.runs.size(), 3U);
   std::multiset<double> pulls;
@@ -66,12 +66,12 @@ TEST(CampaignOfRecords, LeavesOutWhatIsHidden) {
   lugged.tire.lugs = {.height = 0.01, .count = 12, .thickness = 0.005};
   lugged.bin = Bin{0.2, 0.5};
   const CampaignOfRecords told =
-      tell_campaign(lugged, on_a_slope(), {.name = "made", .hide = {"longitudinal_incline", "lugs", "bin"}});
+      campaign_from_runs(lugged, on_a_slope(), {.name = "made", .hide = {"longitudinal_incline", "lugs", "bin"}});
   for (const auto& row : told.campaign.runs) EXPECT_EQ(row.at.longitudinal_incline, 0);
   EXPECT_EQ(told.runs.front().answer.at.longitudinal_incline, 5 * degree) << "the truth stays with the runs";
   EXPECT_FALSE(is_lugged(told.campaign.wheel));
   EXPECT_FALSE(told.campaign.bin);
-  EXPECT_TRUE(is_lugged(tell_campaign(lugged, on_a_slope(), {}).campaign.wheel));
+  EXPECT_TRUE(is_lugged(campaign_from_runs(lugged, on_a_slope(), {}).campaign.wheel));
 }
 
 TEST(CampaignOfRecords, TheOrderIsDrawnFromTheSeed) {
@@ -81,7 +81,7 @@ TEST(CampaignOfRecords, TheOrderIsDrawnFromTheSeed) {
     at.load = 1;
     for (int k = 0; k < 20; ++k) at.slip = 0.01 * k, runs.push_back(run_at(at, k));
     std::vector<double> pulls;
-    for (const auto& row : tell_campaign(sand_scenario(), runs, {.seed = seed}).campaign.runs)
+    for (const auto& row : campaign_from_runs(sand_scenario(), runs, {.seed = seed}).campaign.runs)
       pulls.push_back(*row.drawbar_pull);
     return pulls;
   };
@@ -93,7 +93,7 @@ TEST(CampaignOfRecords, TheOrderIsDrawnFromTheSeed) {
 TEST(CampaignOfRecords, TellsTheLateralForceWhereARunLeansOrIsYawed) {
   std::vector<RecordedRun> runs = on_a_slope();
   runs[1].answer.at.yaw = 0.1;
-  const std::vector<compare::Run> told = tell_campaign(sand_scenario(), runs, {}).campaign.runs;
+  const std::vector<compare::Run> told = campaign_from_runs(sand_scenario(), runs, {}).campaign.runs;
   ASSERT_EQ(told.size(), runs.size());
   for (const compare::Run& row : told) EXPECT_EQ(row.lateral_force, -*row.drawbar_pull);
 }
@@ -101,16 +101,16 @@ TEST(CampaignOfRecords, TellsTheLateralForceWhereARunLeansOrIsYawed) {
 TEST(CampaignOfRecords, CountsWhatItLeavesOut) {
   std::vector<RecordedRun> runs = on_a_slope();
   runs[0].answer.result.reset(), runs[1].steady = false;
-  EXPECT_EQ(tell_campaign(sand_scenario(), runs, {}).without_result, 1U);
-  const CampaignOfRecords told = tell_campaign(sand_scenario(), runs, {.only_steady = true});
+  EXPECT_EQ(campaign_from_runs(sand_scenario(), runs, {}).without_result, 1U);
+  const CampaignOfRecords told = campaign_from_runs(sand_scenario(), runs, {.only_steady = true});
   EXPECT_EQ(told.not_steady, 1U);
   EXPECT_EQ(told.campaign.runs.size(), 1U);
 }
 
 TEST(CampaignOfRecords, RefusesWhatItCannotTell) {
-  const auto refusal = [](const Scenario& scenario, const Disclosure& disclosed) -> std::string {
+  const auto refusal = [](const Scenario& scenario, const CampaignOptions& disclosed) -> std::string {
     try {
-      tell_campaign(scenario, on_a_slope(), disclosed);
+      campaign_from_runs(scenario, on_a_slope(), disclosed);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -121,7 +121,7 @@ TEST(CampaignOfRecords, RefusesWhatItCannotTell) {
   Scenario grains = sand_scenario();
   grains.soil.semi_empirical.reset();
   EXPECT_THAT(refusal(grains, {}), HasSubstr("soilbin bevameter"));
-  EXPECT_THROW(tell_campaign(sand_scenario(), {}, {}), InputError);
+  EXPECT_THROW(campaign_from_runs(sand_scenario(), {}, {}), InputError);
 }
 
 // A nature that is the base model on a bed that tilts by 4 deg, told as level: the loop names the tilt and its size.
@@ -145,7 +145,7 @@ TEST(SlowCampaignOfRecords, TheLoopFindsATiltThatWasNotTold) {
         runs.push_back(run);
       }
   const CampaignOfRecords told =
-      tell_campaign(question.scenario, runs, {.name = "tilted", .hide = {"longitudinal_incline"}});
+      campaign_from_runs(question.scenario, runs, {.name = "tilted", .hide = {"longitudinal_incline"}});
   LoopOptions options;
   options.validate = false;
   const LoopAnswer answer = run_loop(told.campaign, options);

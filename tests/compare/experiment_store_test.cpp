@@ -47,27 +47,30 @@ TEST(ExperimentStores, KeepEveryBit) {
   const VectorXd values = (VectorXd(3) << 1.0 / 3, 0.1 + 0.2, 5e-324).finished();
   {
     ExperimentStore store(folder / "store.json");
-    store.keep(test, {values, 18446744073709551615U, {{std::numbers::pi, 1e-300}}, "", 1.5});
+    store.add(test, {values, 18446744073709551615U, {{std::numbers::pi, 1e-300}}, "", 1.5});
   }
   const ExperimentStore store(folder / "store.json");
-  const std::optional<Experiment> found = store.find(test, values, 18446744073709551615U);
+  const std::optional<Experiment> found = store.find(test, {values, 18446744073709551615U});
   ASSERT_TRUE(found);
   EXPECT_EQ(found->results[0].value, std::numbers::pi);
   EXPECT_EQ(found->results[0].std_error, 1e-300);
-  EXPECT_FALSE(store.find(test, values, 1));
+  EXPECT_FALSE(store.find(test, {values, 1}));
 }
 
-// Each began with what was there before the other's first experiment.
+// Each began with what was there before the other's first experiment; what is in the journal is there too.
 TEST(ExperimentStores, TwoThatFillOneFileLoseNothing) {
   const Folder folder;
-  ExperimentStore one(folder / "store.json"), other(folder / "store.json");
-  for (int k = 0; k < 5; ++k) {
-    one.keep(board_test(), made_experiment(0.3 + 0.1 * k));
-    other.keep(board_test(), made_experiment(1.3 + 0.1 * k));
+  {
+    ExperimentStore one(folder / "store.json"), other(folder / "store.json");
+    for (int k = 0; k < 5; ++k) {
+      one.add(board_test(), made_experiment(0.3 + 0.1 * k));
+      other.add(board_test(), made_experiment(1.3 + 0.1 * k));
+      EXPECT_EQ(ExperimentStore(folder / "store.json").size(), 2U * (static_cast<std::size_t>(k) + 1));
+    }
+    EXPECT_EQ(other.size(), 10U) << "each knows the other's by now";
   }
-  const ExperimentStore both(folder / "store.json");
-  EXPECT_EQ(both.size(), 10U);
-  EXPECT_EQ(other.size(), 10U) << "each knows the other's by now";
+  EXPECT_EQ(ExperimentStore(folder / "store.json").size(), 10U);
+  EXPECT_FALSE(fs::exists(folder / "store.json.journal"));
 }
 
 TEST(ExperimentStores, AnExperimentIsSafeOnlyOnceItIsInTheFile) {
@@ -81,10 +84,10 @@ TEST(ExperimentStores, AnExperimentIsSafeOnlyOnceItIsInTheFile) {
   };
   std::ofstream(folder / "new") << "in the way";
   ExperimentStore store(folder / "new" / "store.json");
-  EXPECT_THROW(experiment_at(test, at(0.5), 1, store), std::runtime_error);
+  EXPECT_THROW(obtain(test, {at(0.5), 1}, store), std::runtime_error);
   EXPECT_EQ(safe, 0);
   fs::remove(folder / "new");
-  experiment_at(test, at(0.6), 1, store);
+  obtain(test, {at(0.6), 1}, store);
   EXPECT_EQ(safe, 1);
 }
 
@@ -92,7 +95,7 @@ TEST(ExperimentStores, AnExperimentIsSafeOnlyOnceItIsInTheFile) {
 std::string said_by_store(const ExperimentStore& store) {
   std::string said;
   for (const double friction : {0.3, 0.4})
-    if (const auto found = store.find(board_test(), at(friction), 7))
+    if (const auto found = store.find(board_test(), {at(friction), 7}))
       said += fmt::format("{} {} {} {}\n", friction, found->results.at(0).value, found->results.at(0).std_error,
                           found->error);
   return said;
@@ -102,7 +105,7 @@ std::string said_by_store(const ExperimentStore& store) {
 TEST(SlowExperimentStores, NoFlippedBitChangesAnAnswer) {
   const Folder folder;
   ExperimentStore store(folder / "store.json");
-  store.keep(board_test(), made_experiment(0.3)), store.keep(board_test(), made_experiment(0.4));
+  store.add(board_test(), made_experiment(0.3)), store.add(board_test(), made_experiment(0.4));
   const std::string text = read_bytes(folder / "store.json", 1 << 20), said = said_by_store(store);
   std::mt19937 random(26);
   int refused = 0;
@@ -129,9 +132,20 @@ TEST(ExperimentStores, WithoutSealsTheyAreReadAndCounted) {
     "experiments": [{"values": [0.3], "seed": 7, "results": [[8.77, 0.3]], "seconds": 1.5}]}]})";
   ExperimentStore store(folder / "old.json");
   EXPECT_EQ(store.unsealed(), 1U);
-  EXPECT_EQ(store.find(board_test(), at(0.3), 7)->results[0].value, 8.77);
-  store.keep(board_test(), made_experiment(0.4));
+  EXPECT_EQ(store.find(board_test(), {at(0.3), 7})->results[0].value, 8.77);
+  store.add(board_test(), made_experiment(0.4));
   EXPECT_EQ(ExperimentStore(folder / "old.json").unsealed(), 1U) << "writing it again vouches for nothing";
+}
+
+// As soilbins of before wrote them.
+TEST(ExperimentStores, ThoseOfTheLibraryAreWrittenBackAsTheyAre) {
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(SOILBIN_SOURCE_DIR "/cases/failure_maps")) {
+    if (entry.path().extension() != ".json") continue;
+    EXPECT_TRUE(ExperimentStore(entry).text() == read_bytes(entry, 1 << 26)) << entry.path();
+    ++files;
+  }
+  EXPECT_EQ(files, 3);
 }
 
 TEST(ExperimentStores, SayWhereTheyAreNotAsExpected) {

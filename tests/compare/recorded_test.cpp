@@ -1,16 +1,13 @@
 // Records: what comes back is what was kept, nothing else is answered, and nobody mixes up two questions.
-#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <cmath>
-#include <fstream>
 #include <random>
 
 #include "compare/recorded/recorded_model.hpp"
-#include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/file_bytes.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -219,6 +216,21 @@ TEST(Record, RefusesOtherInputsAndNamesThem) {
   EXPECT_NO_THROW(refuse_other_inputs(record, other, "r.json", {"tire."}));
 }
 
+// But for two of before beds were told, which get that key.
+TEST(SlowRecord, ThoseOfTheLibraryAreWrittenBackAsTheyAre) {
+  int as_they_are = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(SOILBIN_SOURCE_DIR "/cases/studies/recorded")) {
+    if (entry.path().extension() != ".json") continue;
+    const Record record = read_record(entry);
+    const std::string text = record_text(record);
+    EXPECT_TRUE(record_text(parse_record({"again", text})) == text) << entry.path();
+    const bool told = std::isfinite(record.runs.front().bed.void_ratio);
+    EXPECT_EQ(text == read_bytes(entry, 1 << 26), told) << entry.path();
+    as_they_are += told;
+  }
+  EXPECT_EQ(as_they_are, 6);
+}
+
 TEST(RecordedModel, AnswersWhatIsThereAndSaysWhatIsNot) {
   const RecordedModel model(made_record());
   EXPECT_EQ(model.name(), "dem");
@@ -259,114 +271,6 @@ TEST(Record, AnOlderEfficiencyInTheWheelsAxesIsMended) {
   const Record back = parse_record({"r.json", record_text(record)});
   EXPECT_NEAR(back.runs[0].answer.result->tractive_efficiency,
               along_travel * 0.496 * 0.8 / std::cos(0.1) / told.torque.value, 1e-14);
-}
-
-/// Files are flushed to the disk, which takes its time.
-class SlowKeptRuns : public testing::Test {
- protected:
-  SlowKeptRuns() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "soilbin-record-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~SlowKeptRuns() override { std::filesystem::remove_all(folder_); }
-
-  /// Counts how often it is really run.
-  RunOnce counted() {
-    return [this](const Scenario&, const OperatingCondition& at, std::uint64_t packing) {
-      ++ran_;
-      return at.slip > 0.5 ? failed_run(at.load, packing) : made_run(at.load, at.slip, packing);
-    };
-  }
-  std::filesystem::path file() const { return folder_ / "record.json"; }
-
-  std::filesystem::path folder_;
-  int ran_ = 0;
-  Record empty_{"0.1.0", "dem", "name: made\n", {{"bed.length", "2.5"}}, {}};
-};
-
-TEST_F(SlowKeptRuns, ARerunSkipsWhatIsThere) {
-  const std::vector<OperatingCondition> conditions = {recorded_condition(1, 0.1), recorded_condition(1, 0.6),
-                                                      recorded_condition(2, 0.1)};
-  const auto study = [&](int packings) {
-    std::vector<std::uint64_t> seeds;
-    for (int k = 1; k <= packings; ++k) seeds.push_back(static_cast<std::uint64_t>(k));
-    return sweep(RunOnPackings("dem", seeds, kept_in(file(), empty_, counted())), {}, conditions);
-  };
-  const std::vector<Answer> first = study(1);
-  EXPECT_EQ(ran_, 3);
-  const std::string text = record_text(read_record(file()));
-  const std::vector<Answer> again = study(1);
-  EXPECT_EQ(ran_, 3) << "failures are kept too";
-  EXPECT_EQ(record_text(read_record(file())), text);
-  EXPECT_EQ(again[1].error, first[1].error);
-  study(2);
-  EXPECT_EQ(ran_, 6);
-  EXPECT_EQ(read_record(file()).runs.size(), 6U);
-}
-
-// What a run could be had again from is let go only with the run in the file: never before, however the writing fails.
-TEST_F(SlowKeptRuns, ARunIsSafeOnlyOnceItIsInTheFile) {
-  int safe = 0;
-  RecordedRun run = made_run(1, 0.1, 1);
-  run.on_saved = [&] {
-    ++safe;
-    EXPECT_EQ(read_record(file()).runs.size(), 1U);
-  };
-  std::filesystem::create_directories(file() / "in the way");
-  EXPECT_ANY_THROW(add_run(file(), empty_, run));
-  EXPECT_EQ(safe, 0);
-  std::filesystem::remove_all(file());
-  add_run(file(), empty_, run);
-  EXPECT_EQ(safe, 1);
-}
-
-// Where the disk takes neither record nor restart, what the run found is said: it may have taken hours.
-TEST_F(SlowKeptRuns, ARunThatFindsNoPlaceIsTold) {
-  const std::filesystem::path lost = folder_ / "lost" / "record.json";
-  const RunOnce run =
-      kept_in(lost, empty_, [&](const Scenario& s, const OperatingCondition& at, std::uint64_t packing) {
-        std::ofstream(folder_ / "lost") << "in the way";
-        return counted()(s, at, packing);
-      });
-  std::string said;
-  try {
-    run({}, recorded_condition(1, 0.1), 1);
-  } catch (const CannotWrite& error) {
-    said = error.what();
-  }
-  const double pull = made_run(1, 0.1, 1).answer.result->drawbar_pull.value;
-  EXPECT_THAT(said, HasSubstr("can't make the folder"));
-  EXPECT_THAT(said, HasSubstr("the run that is not in it: load 1 N, slip 10 %"));
-  EXPECT_THAT(said, HasSubstr(fmt::format("drawbar pull {:.6g} ± ", pull)));
-}
-
-TEST_F(SlowKeptRuns, WhatIsFinishedStaysWhereTheRestIsStopped) {
-  struct Stop {};
-  const RunOnce stops = [this](const Scenario& s, const OperatingCondition& at, std::uint64_t packing) {
-    if (ran_ == 1) throw Stop();
-    return counted()(s, at, packing);
-  };
-  const RunOnPackings model("dem", {1}, kept_in(file(), empty_, stops));
-  EXPECT_THROW(sweep(model, {}, {recorded_condition(1, 0.1), recorded_condition(1, 0.2)}), Stop);
-  EXPECT_EQ(read_record(file()).runs.size(), 1U);
-}
-
-TEST_F(SlowKeptRuns, AnotherQuestionIsRefusedBeforeItRuns) {
-  add_run(file(), empty_, made_run(1, 0.1, 1));
-  Record longer = empty_;
-  longer.inputs[0].second = "4";
-  EXPECT_THROW(kept_in(file(), longer, counted()), InputError);
-  EXPECT_THROW(add_run(file(), longer, made_run(1, 0.2, 1)), InputError);
-  EXPECT_EQ(read_record(file()).runs.size(), 1U);
-}
-
-TEST_F(SlowKeptRuns, TwoThatFillOneFileLoseNothing) {
-  const RunOnce one = kept_in(file(), empty_, counted()), other = kept_in(file(), empty_, counted());
-  one({}, recorded_condition(1, 0.1), 1), other({}, recorded_condition(2, 0.1), 1),
-      one({}, recorded_condition(1, 0.2), 1);
-  other({}, recorded_condition(1, 0.2), 1);
-  EXPECT_EQ(ran_, 3);
-  EXPECT_EQ(read_record(file()).runs.size(), 3U);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include "bekker_wong/effect_vocabulary.hpp"
-#include "compare/experiments/soil_bin_runs.hpp"
 #include "scenario/errors.hpp"
 #include "tests/dem/archive_scene.hpp"
 #include "tests/dem/small_bed.hpp"
@@ -54,11 +53,11 @@ Eigen::VectorXd friction(double value) { return Eigen::VectorXd::Constant(1, val
 TrialQuestion asked_of_nature() {
   TrialQuestion question = unanswered();
   const Case nature = trial_case(question, friction(truth));
-  SoilBinRuns runs(small_bin(), "test");
+  SoilBinRuns runs(small_bin(), {});
   const OperatingCondition at = question.setpoints[0].at;
   question.campaign.runs.clear();
   for (const std::uint64_t packing : {11U, 12U}) {
-    const TractionResult result = runs(nature.scenario, at, packing).answer.result.value();
+    const TractionResult result = runs(nature.scenario, {at, packing}).answer.result.value();
     Run& run = question.campaign.runs.emplace_back();
     run.at = at, run.setpoint = "A";
     run.drawbar_pull = result.drawbar_pull.value, run.torque = result.torque.value;
@@ -120,12 +119,12 @@ TEST(SlowSoilBinTrials, StoppedAndGoneOnWithTheDecisionIsTheSame) {
   const Folder folder;
   struct Stopped {};
   TrialSettings settings = kept_in_folder(folder);
-  settings.progress = [](const TrialProgress& progress) {
-    if (progress.done == 2) throw Stopped();
+  settings.watch = [](const dem::Progress& progress) {
+    if (progress.done > 0.5) throw Stopped();  // two of three
   };
   EXPECT_THROW(decided(settings), Stopped);
   int made = 0;
-  settings.progress = {}, settings.bin.how.progress = [&](const dem::Progress& p) { made += p.done >= 1; };
+  settings.watch = {}, settings.bin.how.progress = [&](const dem::Progress& p) { made += p.done >= 1; };
   const Decision gone_on = decided(settings);
   EXPECT_EQ(made, 1);  // of three runs; the bed is there
   EXPECT_EQ(gone_on.chosen, whole().chosen);

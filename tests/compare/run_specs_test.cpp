@@ -1,5 +1,5 @@
 // A study's runs as a list: one order, whole in its shards.
-#include "compare/recorded/run_list.hpp"
+#include "compare/recorded/run_specs.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,30 +27,30 @@ std::vector<OperatingCondition> six_conditions() {
   return conditions;
 }
 
-std::vector<std::string> in_words_all(const std::vector<AskedRun>& list) {
+std::vector<std::string> in_words_all(const std::vector<RunSpec>& list) {
   std::vector<std::string> words;
-  for (const AskedRun& run : list) words.push_back(in_words(run));
+  for (const RunSpec& run : list) words.push_back(in_words(run));
   return words;
 }
 
-TEST(TheRunList, GoesPackingByPackingAndInEachByLoadAndSlip) {
-  const auto list = run_list(six_conditions(), {3, 1}, TestStep::no);
+TEST(RunSpecs, GoesPackingByPackingAndInEachByLoadAndSlip) {
+  const auto list = specs(six_conditions(), {3, 1}, TestStep::no);
   ASSERT_EQ(list.size(), 12U);
   EXPECT_EQ(in_words(list[0]), "load 40 N, slip 10 %, bed sample 3");
   EXPECT_EQ(in_words(list[5]), "load 70 N, slip 40 %, bed sample 3");
   EXPECT_EQ(in_words(list[6]), "load 40 N, slip 10 %, bed sample 1");
 }
 
-TEST(TheRunList, IsTheSameForConditionsInAnyOrderAndCountsThoseThatAreAlikeOnce) {
+TEST(RunSpecs, IsTheSameForConditionsInAnyOrderAndCountsThoseThatAreAlikeOnce) {
   std::vector<OperatingCondition> turned = six_conditions();
   std::reverse(turned.begin(), turned.end());
   turned.push_back(listed_condition(70, 0.1 * (1 + 1e-12)));
-  EXPECT_EQ(in_words_all(run_list(turned, {1, 2}, TestStep::yes)),
-            in_words_all(run_list(six_conditions(), {1, 2}, TestStep::yes)));
+  EXPECT_EQ(in_words_all(specs(turned, {1, 2}, TestStep::yes)),
+            in_words_all(specs(six_conditions(), {1, 2}, TestStep::yes)));
 }
 
-TEST(TheRunList, BeginsWithTheHardestConditionAtBothSteps) {
-  const auto list = run_list(six_conditions(), {5, 6}, TestStep::yes);
+TEST(RunSpecs, BeginsWithTheHardestConditionAtBothSteps) {
+  const auto list = specs(six_conditions(), {5, 6}, TestStep::yes);
   ASSERT_EQ(list.size(), 13U);
   EXPECT_EQ(in_words(list[0]), "load 70 N, slip 40 %, bed sample 5");
   EXPECT_EQ(in_words(list[1]), "load 70 N, slip 40 %, bed sample 5, half the time step");
@@ -61,18 +61,18 @@ TEST(TheRunList, BeginsWithTheHardestConditionAtBothSteps) {
   EXPECT_EQ(once.size(), 13U) << "nothing twice";
 }
 
-TEST(TheRunList, NothingAskedIsNoRun) {
-  EXPECT_TRUE(run_list({}, {1}, TestStep::yes).empty());
-  EXPECT_TRUE(shard_of({}, {1, 4}).empty());
+TEST(RunSpecs, NothingAskedIsNoRun) {
+  EXPECT_TRUE(specs({}, {1}, TestStep::yes).empty());
+  EXPECT_TRUE(shard_of(std::vector<RunSpec>{}, {1, 4}).empty());
 }
 
 // For every number of shards: put together they are the list, none has a pair's half alone, no two differ by more than
 // a run and the pair (which counts as three).
 TEST(Shards, AreTheListInStretches) {
   for (const TestStep test : {TestStep::no, TestStep::yes}) {
-    const auto list = run_list(six_conditions(), {1, 2, 3}, test);
+    const auto list = specs(six_conditions(), {1, 2, 3}, test);
     for (int of = 1; of <= 25; ++of) {
-      std::vector<AskedRun> together;
+      std::vector<RunSpec> together;
       std::size_t least = list.size(), most = 0;
       for (int number = 1; number <= of; ++number) {
         const auto mine = shard_of(list, {number, of});
@@ -89,7 +89,7 @@ TEST(Shards, AreTheListInStretches) {
 }
 
 TEST(Shards, TheFirstMakesThePairOfTheTimeStep) {
-  const auto list = run_list(six_conditions(), {1}, TestStep::yes);
+  const auto list = specs(six_conditions(), {1}, TestStep::yes);
   for (const int of : {1, 2, 4, 6}) {
     const auto first = shard_of(list, {1, of});
     ASSERT_GE(first.size(), 2U);
@@ -111,8 +111,8 @@ TEST(Shards, AreReadAsKOfN) {
 }
 
 TEST(MissingRuns, AreThoseThatNoRecordHolds) {
-  const auto list = run_list({listed_condition(40, 0.1), listed_condition(40, 0.2)}, {1}, TestStep::yes);
-  const auto made = [](const AskedRun& run) {
+  const auto list = specs({listed_condition(40, 0.1), listed_condition(40, 0.2)}, {1}, TestStep::yes);
+  const auto made = [](const RunSpec& run) {
     return RecordedRun{.answer = {run.at, std::nullopt, "dug in"},
                        .packing = run.packing,
                        .source = "abc",

@@ -1,0 +1,154 @@
+#include "compare/recorded/run_store.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "bekker_wong/effect_vocabulary.hpp"
+#include "scenario/atomic_file.hpp"
+#include "scenario/case.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/traction_channels.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// A run and the file that it came from.
+struct FoundRun {
+  const std::filesystem::path* file;
+  RecordedRun run;
+};
+
+/// A line of the record without what may differ between two makings of a run.
+std::string answer_text(RecordedRun run) {
+  run.seconds = 0, run.source.clear(), run.sealed = false;
+  return run_text(run);
+}
+
+std::string made_by(const FoundRun& found) {
+  return fmt::format("{} (made by {}, {:.0f} s)", found.file->string(), found.run.source, found.run.seconds);
+}
+
+void merge(std::vector<FoundRun>& all, FoundRun fresh, bool half_step) {
+  const RunSpec spec{fresh.run.answer.at, fresh.run.packing, half_step};
+  const auto known = std::ranges::find_if(all, [&](const FoundRun& one) { return answers(one.run, spec); });
+  if (known == all.end()) return all.push_back(std::move(fresh));
+  if (answer_text(known->run) != answer_text(fresh.run))
+    throw InputError(fmt::format(
+        "{}: two answers to the same run:\n  {}\n  {}\n  hint: the same program gives the same bits on every machine; "
+        "different sources may not. Leave out the file that is not to be trusted",
+        in_words(spec), made_by(*known), made_by(fresh)));
+  const auto rank = [](const RecordedRun& run) { return std::tuple(!run.sealed, run.source, run.seconds); };
+  if (rank(fresh.run) < rank(known->run)) *known = std::move(fresh);
+}
+
+std::vector<RecordedRun> all_of(const std::vector<NamedRecord>& shards, bool half_step) {
+  std::vector<FoundRun> found;
+  for (const NamedRecord& shard : shards)
+    for (const RecordedRun& run : shard.record.list(half_step)) merge(found, {&shard.file, run}, half_step);
+  std::vector<RecordedRun> runs;
+  for (FoundRun& one : found) runs.push_back(std::move(one.run));
+  return runs;
+}
+
+/// The case of a record as it is written today: with the defaults of keys that came since. As it stands where it can't
+/// be read.
+std::string case_today(const NamedRecord& shard) try {
+  const bekker_wong::CatalogueVocabulary effects;
+  return write_case(parse_case({shard.file.string(), shard.record.question}, Library{}, effects), effects);
+} catch (const InputError&) {
+  return shard.record.question;
+}
+
+/// Throws InputError that names both files where they do not answer the same question.
+void refuse_another_question(const NamedRecord& first, const NamedRecord& other) {
+  refuse_other_inputs(other.record, first.record.inputs, other.file);
+  if (other.record.model != first.record.model)
+    throw InputError(fmt::format("{} holds answers of the model '{}', {} of '{}'", other.file.string(),
+                                 other.record.model, first.file.string(), first.record.model));
+  if (other.record.question != first.record.question && case_today(other) != case_today(first))
+    throw InputError(
+        fmt::format("{} and {} were begun with different cases\n  hint: all shards take the same study; 'soilbin "
+                    "record show' tells which a record was begun with",
+                    first.file.string(), other.file.string()));
+}
+
+/// The answer of a run in a line, for a person who has nothing else of it.
+std::string in_a_line(const RunSpec& spec, const RecordedRun& run) {
+  std::string line = in_words(spec) + ":";
+  if (!run.answer.result) return line + " " + run.answer.error;
+  for (const TractionChannel& channel : traction_channels) {
+    const Estimate& value = (*run.answer.result).*channel.predicted;
+    line += fmt::format(" {} {:.6g} ± {:.2g} {};", channel.title, value.value * channel.per_si,
+                        value.std_error * channel.per_si, channel.unit);
+  }
+  return line.substr(0, line.size() - 1);
+}
+
+}  // namespace
+
+Record merged(const std::vector<NamedRecord>& shards) {
+  if (shards.empty()) throw InputError("no record to merge");
+  Record whole = shards.front().record;
+  for (const NamedRecord& other : shards) {
+    refuse_another_question(shards.front(), other);
+    if (other.record.question != whole.question) whole.question = case_today(other);
+    whole.soilbin = std::min(whole.soilbin, other.record.soilbin);
+    whole.sealed = whole.sealed && other.record.sealed;
+  }
+  whole.runs = all_of(shards, false), whole.half_step = all_of(shards, true);
+  put_in_order(whole);
+  return whole;
+}
+
+RunStore::RunStore(Record begin, std::filesystem::path file, Writers writers, const std::vector<NamedRecord>& known)
+    : file_(std::move(file)),
+      record_(std::move(begin)),
+      kept_(
+          file_, writers, [this] { read(); }, [this] { return record_text(record_); }) {
+  kept_.look();
+  for (const NamedRecord& other : known) {
+    refuse_other_inputs(other.record, record_.inputs, other.file);
+    known_.push_back(other.record);
+  }
+}
+
+void RunStore::read() {
+  Record there = read_record(file_);
+  refuse_other_inputs(there, record_.inputs, file_);
+  add_missing_runs(there, record_);  // without a lock another writer may have written over ours
+  record_ = std::move(there);
+}
+
+bool RunStore::knows(const RunSpec& spec) const {
+  return std::ranges::any_of(known_, [&](const Record& record) { return find_run(record, spec) != nullptr; });
+}
+
+const RecordedRun* RunStore::find(const RunSpec& spec) {
+  for (const Record& record : known_)
+    if (const RecordedRun* run = find_run(record, spec)) return run;
+  if (const RecordedRun* run = find_run(record_, spec)) return run;
+  kept_.look();
+  return find_run(record_, spec);
+}
+
+void RunStore::add(const RunSpec& spec, const RecordedRun& run) {
+  Record alone{record_.soilbin, record_.model, record_.question, record_.inputs, {}, {}, record_.sealed};
+  alone.list(spec.half_step).push_back(run);
+  try {
+    kept_.add([&] { add_missing_runs(record_, alone); }, record_text(alone));
+  } catch (const CannotWrite& error) {  // where its restart can't be written either, this is all that is left of it
+    throw CannotWrite(fmt::format("{}\n  the run that is not in it: {}", error.what(), in_a_line(spec, run)));
+  }
+  if (!file_.empty() && run.on_saved) run.on_saved();
+}
+
+RecordedRun obtain(const RunSpec& spec, RunStore& store, const std::function<RecordedRun(const RunSpec&)>& make) {
+  if (const RecordedRun* known = store.find(spec)) return *known;
+  RecordedRun run = make(spec);
+  store.add(spec, run);
+  return run;
+}
+
+}  // namespace soilbin::compare

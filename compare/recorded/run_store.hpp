@@ -1,0 +1,62 @@
+// The one keeper of runs: a record in a file that several processes add to, or in memory; and records put together.
+//
+//   RunStore store(begin, "record.json");                     // what is there is known; other inputs are refused
+//   const RecordedRun run = obtain({at, 1}, store, make);     // from the store, or made now and kept
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "compare/recorded/kept_file.hpp"
+#include "compare/recorded/record.hpp"
+
+namespace soilbin::compare {
+
+/// A record and the file that it was read from, for messages.
+struct NamedRecord {
+  std::filesystem::path file;
+  Record record;
+};
+
+/// All their runs in one record, in_order; any order of the shards gives the same one, whose bytes are those of the
+/// record that one process would have written, but for the seconds that each run took. A run that several hold with the
+/// same answer is kept once (of seconds and sources those that compare first), so merging twice changes nothing. Throws
+/// InputError for none, for records of other inputs, model or case (as each is written today), and where two hold the
+/// same run with different answers; it names both files, the run, and what made each.
+Record merged(const std::vector<NamedRecord>& shards);
+
+class RunStore {
+ public:
+  /// `begin`: what the file is begun with where there is none. Without a file runs are kept in memory alone. `known`:
+  /// records whose runs are known too, and not copied. Throws InputError where the inputs of a file differ.
+  explicit RunStore(Record begin, std::filesystem::path file = {}, Writers writers = Writers::several,
+                    const std::vector<NamedRecord>& known = {});
+
+  /// The run of a spec, in the file, as it is by now, or in a record that is known; nullptr where there is none. Stays
+  /// until the next call.
+  const RecordedRun* find(const RunSpec& spec);
+  /// Whether a record that is known has it.
+  bool knows(const RunSpec& spec) const;
+
+  /// Adds a run that find doesn't have. With the run on the disk, it is safe (on_saved). Throws CannotWrite with what
+  /// the run found, for nothing else may be left of it.
+  void add(const RunSpec& spec, const RecordedRun& run);
+
+  /// The record as it was read or written last.
+  const Record& record() const { return record_; }
+
+ private:
+  void read();
+
+  std::filesystem::path file_;
+  Record record_;
+  std::vector<Record> known_{};
+  KeptFile kept_;  ///< last: goes first, and writes the record
+};
+
+/// The run of a spec: the store's, or made now and added to it.
+RecordedRun obtain(const RunSpec& spec, RunStore& store, const std::function<RecordedRun(const RunSpec&)>& make);
+
+}  // namespace soilbin::compare
