@@ -11,6 +11,7 @@
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
+#include "cli/versions.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/experiments/failure_map_grains.hpp"
 #include "compare/experiments/run_plan.hpp"
