@@ -10,6 +10,7 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
+#include "cli/versions.hpp"
 #include "compare/experiments/grain_drives.hpp"
 #include "compare/telling/drive_report.hpp"
 #include "scenario/errors.hpp"

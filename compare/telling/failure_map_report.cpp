@@ -196,7 +196,7 @@ std::string grains_sentence(const FailureMapResult& result) {
       known, asked);
 }
 
-constexpr int cells = 7;  // of a heat map, along and up
+constexpr int map_cells = 7;  // of a heat map, along and up
 
 std::string in_units(const Factor& factor, double value) {
   return fmt::format("{:.3g}{}", value * per_unit(factor.unit), unit_behind(factor.unit));
@@ -229,14 +229,14 @@ HeatMap heat_map_of(const FailureMapResult& result, double lug_height, double sl
   map.subtitle = "analytic less grains [% of the load]";
   map.x_title = heading(load.name, load.unit), map.y_title = heading(angle.name, angle.unit);
   map.limit = 300 * result.question.tolerance;
-  for (int c = 0; c < cells; ++c)
-    map.x.push_back(fmt::format("{:.4g}", level_value(load, c, cells) * per_unit(load.unit)));
-  for (int r = cells - 1; r >= 0; --r) {
-    map.y.push_back(in_units(angle, level_value(angle, r, cells)));
+  for (int c = 0; c < map_cells; ++c)
+    map.x.push_back(fmt::format("{:.4g}", level_value(load, c, map_cells) * per_unit(load.unit)));
+  for (int r = map_cells - 1; r >= 0; --r) {
+    map.y.push_back(in_units(angle, level_value(angle, r, map_cells)));
     std::vector<HeatCell> row;
-    for (int c = 0; c < cells; ++c) {
+    for (int c = 0; c < map_cells; ++c) {
       VectorXd values(4);
-      values << level_value(load, c, cells), lug_height, level_value(angle, r, cells), slip;
+      values << level_value(load, c, map_cells), lug_height, level_value(angle, r, map_cells), slip;
       row.push_back(cell_at(result, values));
     }
     map.cells.push_back(std::move(row));

@@ -123,7 +123,7 @@ const char* const settings[] = {"", " --lug-height=8mm --effect=lug_thrust", " -
                                 " --inflation-pressure=60kPa --effect=tire_flexibility"};
 
 TEST(SlowIgnoredInput, EveryFlagOfAQuestionChangesTheAnswerOrIsDoubted) {
-  const std::set<std::string> outputs = {"--help", "--plot", "--csv", "--json"};
+  const std::set<std::string> outputs = {"--help", "--plot", "--csv", "--json", "--report", "--markdown"};
   const std::set<std::string> needed = {"--tire", "--radius", "--width", "--soil", "--load", "--slip"};
   const std::string wheel = " --radius=110mm --width=100mm --soil=dry-sand --load=80N";
   for (const std::string command : {"estimate", "limits"}) {

@@ -1,6 +1,7 @@
 # Installs the build into a fresh prefix, then configures, builds and runs the project beside this file against it, and
 # the installed command away from any source tree.
 # cmake -D BUILD=... -D CONSUMER=... -D SCRATCH=... -D VERSION=... -D WITH_COMMAND=yes|no -P consumer_test.cmake
+cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${SCRATCH})
 file(MAKE_DIRECTORY ${SCRATCH}/elsewhere)
 set(prefix ${SCRATCH}/prefix)
