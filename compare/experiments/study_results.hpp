@@ -43,7 +43,7 @@ std::unique_ptr<const Model> grain_model(const StudyGrains& grains, const Case& 
 
 struct StudyResults {
   std::vector<ModelAnswers> study{};
-  std::vector<std::string> doubts{};
+  Doubts doubts{};
   std::optional<dem::StepCriteria> step{};  ///< of grains (step_of)
   std::vector<RecordedRun> runs{};          ///< behind the grains' answers, in the order in which they came
 };

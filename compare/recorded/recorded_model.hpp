@@ -86,8 +86,6 @@ class RecordedModel : public Model {
   std::vector<const RecordedRun*> runs(const OperatingCondition& at) const;
   /// Their mean_of_packings. Throws NoSolution where the condition isn't in the record, and says so.
   TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override;
-  /// Whether its answers hang on the time step (step_pair.hpp).
-  std::vector<std::string> doubts() const override { return step_doubts(record_); }
 
  private:
   Record record_;
