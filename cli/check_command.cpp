@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 /// What a file turned out to be, and what is doubtful in it.
 struct Verdict {
   std::string what;
-  std::vector<std::string> warnings;
+  compare::Doubts doubts;
 };
 
 /// The `format:` of a document, "" where there is none.
@@ -72,9 +72,8 @@ Verdict judge(const fs::path& file, const Workplace& place) {
   }
   if (format == soil_format) {
     const Soil soil = read_soil(file);
-    std::vector<std::string> doubts = compare::doubts(soil);
-    if (soil.granular)
-      for (std::string& doubt : compare::grain_value_doubts(*soil.granular)) doubts.push_back(std::move(doubt));
+    compare::Doubts doubts = compare::doubts(soil);
+    if (soil.granular) append(doubts, compare::grain_value_doubts(*soil.granular));
     return {fmt::format("soil '{}'", soil.name), doubts};
   }
   const Case question =
@@ -92,13 +91,14 @@ Verdict judge(const fs::path& file, const Workplace& place) {
 int check(const std::string& name, bool json, const Session& session) {
   const Verdict verdict = judge(file_named(name, session.place), session.place);
   if (json) {
-    print_json(
-        {{"format", "soilbin-check/1"}, {"valid", true}, {"what", verdict.what}, {"warnings", verdict.warnings}});
+    nlohmann::ordered_json document = {{"format", "soilbin-check/1"}, {"valid", true}, {"what", verdict.what}};
+    document["warnings"] = nlohmann::ordered_json::array();  // an empty list where there are none
+    print_json(std::move(document), verdict.doubts);
     return done;
   }
   fmt::print("valid: {}\n", verdict.what);
-  for (const std::string& warning : verdict.warnings) fmt::print("warning: {}\n", warning);
-  if (verdict.warnings.empty()) fmt::print("no warnings\n");
+  for (const std::string& line : in_words(verdict.doubts)) fmt::print("warning: {}\n", line);
+  if (verdict.doubts.empty()) fmt::print("no warnings\n");
   return done;
 }
 

@@ -109,9 +109,8 @@ int compare_models(CompareOptions asked, const CLI::App& command, const Session&
     about.facts.insert(about.facts.end(), of.grains.facts.begin(), of.grains.facts.end());
     sides.push_back(std::move(of.grains.side)), runs = std::move(of.runs);
   }
-  std::vector<std::string> doubts = compare::doubts(question, choices, sides);
-  if (std::string density = compare::bed_density_doubt(question.scenario.soil, runs); !density.empty())
-    doubts.push_back(std::move(density));
+  compare::Doubts doubts = compare::doubts(question, choices, sides);
+  append(doubts, compare::bed_density_doubts(question.scenario.soil, runs));
   question.scenario.soil.name = values.title(!runs.empty());
   if (!asked.measured.empty())
     sides.push_back(compare::side_of(find_campaign(session.place, asked.measured), question));

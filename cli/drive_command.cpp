@@ -65,8 +65,8 @@ int drive_with_grains(const DriveOptions& options, const Case& question, const S
   grains.run();
   sides.insert(sides.end(), grains.sides().begin(), grains.sides().end());
   const compare::DriveSides drive = compare::side_by_side(question, std::move(sides), grains.notes());
-  std::vector<std::string> doubts = compare::doubts(drive);
-  for (std::string& doubt : bed_doubts(options.soil_bin, question)) doubts.push_back(std::move(doubt));
+  compare::Doubts doubts = compare::doubts(drive);
+  append(doubts, bed_doubts(options.soil_bin, question));
   const Outputs outputs = publish(compare::report_on(drive), options.outputs, doubts, session);
   if (std::fflush(stdout) == 0 && outputs.complete())
     grains.forget();

@@ -47,7 +47,7 @@ dem::SpecimenSettings ElementTestFlags::specimen(const GranularSoil& soil) const
   return out;
 }
 
-std::vector<std::string> ElementTestFlags::doubts(GranularSoil soil) const {
+compare::Doubts ElementTestFlags::doubts(GranularSoil soil) const {
   if (rolling == "none")
     soil.grain_grain.rolling_friction = soil.grain_tire.rolling_friction = 0.0;
   else if (!rolling.empty())

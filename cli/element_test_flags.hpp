@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/doubts/doubt.hpp"
 #include "dem/element_tests/bevameter_tests.hpp"
 #include "scenario/soil.hpp"
 
@@ -24,7 +25,7 @@ struct ElementTestFlags {
   dem::SpecimenSettings specimen(const GranularSoil& soil) const;
   dem::WorkOptions work() const;
   /// What is doubtful in the grains, under the law that the flag gives.
-  std::vector<std::string> doubts(GranularSoil soil) const;
+  compare::Doubts doubts(GranularSoil soil) const;
 };
 
 /// Plates of the size that a field test has, --plate and --plate-sinkage; without them they are sized in grains.

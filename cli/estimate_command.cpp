@@ -30,7 +30,7 @@ int estimate(const Question& inputs, const EstimateOptions& options, const Sessi
         "--plot draws curves: it takes several values of slip or of another condition\n"
         "  hint: --slip 0%..60%, or --load 50N..200N; the steepest slope: soilbin limits --plot slope.svg");
   require_semi_empirical(question, session.place.library);
-  std::vector<std::string> notes = options.tire.apply(question, inputs.switches_effects_off());
+  compare::Doubts notes = options.tire.apply(question, inputs.switches_effects_off());
   const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
   compare::Report report = compare::report_on(question, study);
   report.data = [&] {

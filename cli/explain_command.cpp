@@ -23,7 +23,7 @@ int explain(const Question& inputs, const TireFlags& tire, const OutputFlags& as
   if (question.study.conditions.size() > most)
     throw InputError(fmt::format("{} conditions are too many to explain; pick one with --load, --slip, ...",
                                  question.study.conditions.size()));
-  std::vector<std::string> notes = tire.apply(question, inputs.switches_effects_off());
+  compare::Doubts notes = tire.apply(question, inputs.switches_effects_off());
   const std::string heading =
       fmt::format("{} on {}", compare::tire_in_words(question), compare::in_words(question.scenario.soil));
   compare::Report report{"Why: " + heading, question.description, heading};

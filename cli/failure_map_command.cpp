@@ -91,8 +91,8 @@ int plan(const FailureMapOptions& asked, Case question, const compare::InclineMa
   compare::RunPlan plan = compare::plan_of(question, settings_of(asked.soil_bin), list, {});
   for (std::size_t k = 0; k < plan.runs.size(); ++k) plan.runs[k].of_tire = lugs[k];
   question.study.models = {{ModelKind::bekker_wong, map.scenario.effects, ""}, {ModelKind::dem, {}, ""}};
-  std::vector<std::string> doubts = compare::doubts(question);
-  for (std::string& doubt : bed_doubts(asked.soil_bin, question)) doubts.push_back(std::move(doubt));
+  compare::Doubts doubts = compare::doubts(question);
+  append(doubts, bed_doubts(asked.soil_bin, question));
   print_warnings(doubts);
   if (asked.outputs.json)
     print_json(compare::plan_json(plan), doubts);

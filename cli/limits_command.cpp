@@ -28,7 +28,7 @@ double max_slip_of(const LimitsOptions& options) {
 int limits(const Question& inputs, const LimitsOptions& options, const Session& session) {
   Case question = inputs.ask(session.place);
   require_semi_empirical(question, session.place.library);
-  std::vector<std::string> notes = options.tire.apply(question, inputs.switches_effects_off());
+  compare::Doubts notes = options.tire.apply(question, inputs.switches_effects_off());
   const std::vector<compare::WheelLimits> answers = compare::limits_of(question, max_slip_of(options));
   const std::vector<compare::ModelAnswers> at_limits = compare::answers_at_limits(question, answers);
   compare::Report report = compare::report_on(question, answers, at_limits);

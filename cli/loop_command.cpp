@@ -53,8 +53,9 @@ void print_answer(const compare::LoopAnswer& answer, const std::vector<std::stri
 
 int loop(const LoopOptions& asked, const Session& session) {
   const compare::Campaign campaign = find_campaign(session.place, asked.campaign, compare::CampaignUse::fit);
-  const compare::DoubtsBeforeFit doubts = compare::doubts_before_fit(campaign);
-  print_warnings(doubts.all);
+  const compare::Doubts doubts = compare::doubts_before_fit(campaign);
+  const std::vector<std::string> of_columns = in_words(of_mistaken_columns(doubts));
+  print_warnings(doubts);
   compare::LoopOptions options;
   options.folds = asked.folds;
   options.attribution.seed = asked.seed;
@@ -64,16 +65,16 @@ int loop(const LoopOptions& asked, const Session& session) {
   const compare::LoopAnswer answer = compare::run_loop(campaign, options);
   Outputs outputs;
   outputs.file(asked.report,
-               [&] { return compare::loop_page(campaign, answer, doubts.all, doubts.columns, session.command); });
+               [&] { return compare::loop_page(campaign, answer, in_words(doubts), of_columns, session.command); });
   outputs.file(asked.model,
                [&] { return write_case(compare::resolved_model(campaign, answer), session.place.effects); });
   if (asked.json) {
     nlohmann::ordered_json document = compare::to_json(answer);
-    if (!doubts.columns.empty()) document["column_doubts"] = doubts.columns;
+    if (!of_columns.empty()) document["column_doubts"] = of_columns;
     if (asked.details) document["details"] = compare::details_json(answer);
-    print_json(std::move(document), doubts.all);
+    print_json(std::move(document), doubts);
   } else {
-    print_answer(answer, doubts.columns, asked.next);
+    print_answer(answer, of_columns, asked.next);
   }
   return outputs.status(done);
 }

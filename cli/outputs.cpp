@@ -107,10 +107,16 @@ void OutputFlags::add_to(CLI::App& command, const Meanings& meanings) {
   command.add_flag("--json", json, meanings.json);
 }
 
-Outputs publish(const compare::Report& report, const OutputFlags& asked, const std::vector<std::string>& doubts,
+Outputs publish(compare::Report report, const OutputFlags& asked, const compare::Doubts& doubts,
                 const Session& session) {
   print_warnings(doubts);
-  const compare::PageAbout about{"", session.command, versions(), doubts};
+  const compare::PageAbout about{"", session.command, versions(), in_words(doubts)};
+  if (report.data)
+    report.data = [answer = report.data, &doubts] {
+      nlohmann::ordered_json document = answer();
+      add_warnings(document, doubts);
+      return document;
+    };
   Outputs outputs;
   outputs.csv(asked.csv, report.csv);
   outputs.drawing(asked.plot, report.sheet);
@@ -123,7 +129,7 @@ Outputs publish(const compare::Report& report, const OutputFlags& asked, const s
     fmt::print(stderr, "wrote {}\n", (std::filesystem::path(asked.markdown) / "report.md").string());
   });
   if (asked.json)
-    print_json(report.data(), doubts);
+    print_json(report.data());
   else
     fmt::print("{}", compare::text_of(report));
   return outputs;

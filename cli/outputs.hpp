@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/doubts/doubt.hpp"
 #include "compare/report/report.hpp"
 
 namespace soilbin::cli {
@@ -68,7 +69,7 @@ struct OutputFlags {
 };
 
 /// Tells the doubts on standard error, writes the files that were asked for, and prints the answer as text or JSON.
-Outputs publish(const compare::Report& report, const OutputFlags& asked, const std::vector<std::string>& doubts,
+Outputs publish(compare::Report report, const OutputFlags& asked, const compare::Doubts& doubts,
                 const Session& session);
 
 }  // namespace soilbin::cli

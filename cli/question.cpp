@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <set>
 
 #include "cli/flag_values.hpp"
-#include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
@@ -120,9 +118,9 @@ EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocab
 
 }  // namespace
 
-std::vector<std::string> joined_doubts(std::vector<std::string> notes, const Case& question,
-                                       const std::vector<compare::ModelAnswers>& study) {
-  std::ranges::copy(compare::doubts(question, study), std::back_inserter(notes));
+compare::Doubts joined_doubts(compare::Doubts notes, const Case& question,
+                              const std::vector<compare::ModelAnswers>& study) {
+  append(notes, compare::doubts(question, study));
   return notes;
 }
 

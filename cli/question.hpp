@@ -11,8 +11,9 @@
 
 #include "cli/described_flags.hpp"
 #include "cli/workplace.hpp"
+#include "compare/doubts/declared_tire.hpp"
+#include "compare/doubts/doubt.hpp"
 #include "compare/sweep/answers.hpp"
-#include "compare/sweep/declared_tire.hpp"
 
 namespace soilbin::cli {
 
@@ -77,9 +78,9 @@ class TireFlags {
         ->group("Model");
     app.add_flag("--no-lugs", left_out_.lugs, "a smooth wheel, whatever lugs the tire declares")->group("Model");
   }
-  /// What to tell of it, a sentence each. `base_model`: every effect was switched off by name. Throws InputError for a
+  /// What to tell of it. `base_model`: every effect was switched off by name. Throws InputError for a
   /// question that names the effect of what is left out.
-  std::vector<std::string> apply(Case& question, bool base_model = false) const {
+  compare::Doubts apply(Case& question, bool base_model = false) const {
     return base_model ? compare::without_effects(question, left_out_) : compare::as_declared(question, left_out_);
   }
 
@@ -88,8 +89,8 @@ class TireFlags {
 };
 
 /// The notes, then what is doubtful in the answers.
-std::vector<std::string> joined_doubts(std::vector<std::string> notes, const Case& question,
-                                       const std::vector<compare::ModelAnswers>& study);
+compare::Doubts joined_doubts(compare::Doubts notes, const Case& question,
+                              const std::vector<compare::ModelAnswers>& study);
 
 /// --soil where the analytic wheel is set beside grains: its values are that soil's, the grains stay the study's.
 class AnalyticSoil {

@@ -63,12 +63,14 @@ ReportOptions sorted(ReportOptions options, const Workplace& place) {
 void leave_out_grains(Case& question, const std::string& name, const Workplace& place, compare::NamedDoubts& named) {
   if (!asks(question.study, ModelKind::dem)) return;
   const bool recorded = is_there(place_of_record(place, name));
-  const std::string instead =
-      fmt::format("soilbin compare {}{} --report FILE.html", name, recorded ? " --recorded" : " --model dem");
+  const char* model = recorded ? "--recorded" : "--model dem";
   if (!asks(question.study, ModelKind::bekker_wong))
-    throw InputError(fmt::format("{} asks grains alone, which this page does not run\n  hint: {}", name, instead));
+    throw InputError(
+        fmt::format("{0} asks grains alone, which this page does not run\n  hint: soilbin compare {0} {1} --report "
+                    "FILE.html",
+                    name, model));
   compare::keep_models(question.study, ModelKind::bekker_wong);
-  named.add(name, {"the study asks for grains too, which are not on this page; " + instead + " shows them"});
+  named.add(name, compare::Doubts{{compare::DoubtKind::grains_left_out, {name, model}}});
 }
 
 int report(const ReportOptions& asked, const Session& session) {
@@ -99,11 +101,11 @@ int report(const ReportOptions& asked, const Session& session) {
     named.add(name, compare::doubts(part.campaign, declared, part.prediction));
     campaigns.push_back(std::move(part));
   }
-  const std::vector<std::string> doubts = named.lines();
+  const compare::Doubts doubts = named.all();
   print_warnings(doubts);
-  write_file_atomically(
-      options.output,
-      compare::analysis_page(studies, campaigns, {options.title, command_of(options), versions(), doubts}, links));
+  write_file_atomically(options.output, compare::analysis_page(
+                                            studies, campaigns,
+                                            {options.title, command_of(options), versions(), in_words(doubts)}, links));
   fmt::print("wrote {}: open it in a browser\n", options.output);
   return done;
 }

@@ -67,7 +67,7 @@ int reproduce(const ReproduceOptions& options, const Session& session) {
       [&](const std::string& study) { return find_case(session.place, study); }, shown_progress);
   compare::Reproduction reproduction = compare::reproduce(findings, answered.answers);
   reproduction.remarks = answered.remarks;
-  return publish(compare::report_on(reproduction), options.outputs, answered.doubts.lines(), session).status(done);
+  return publish(compare::report_on(reproduction), options.outputs, answered.doubts.all(), session).status(done);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ struct RunOptions {
   ConditionFlags conditions;
   ErrorFlag errors;
   TireFlags tire;
-  std::vector<std::string> notes;  ///< of the tire's flexibility and lugs
+  compare::Doubts notes;  ///< of the tire's flexibility and lugs
   SoilBinFlags soil_bin;
 };
 
@@ -120,9 +120,9 @@ auto recording(const RunOptions& options, const Work& work) {
 }
 
 /// Doubts about a question that nobody has answered yet, and about the bed that its runs would begin on.
-std::vector<std::string> doubts_before_runs(const RunOptions& options, const Case& question) {
-  std::vector<std::string> doubts = compare::doubts(question);
-  for (std::string& doubt : bed_doubts(options.soil_bin, question)) doubts.push_back(std::move(doubt));
+compare::Doubts doubts_before_runs(const RunOptions& options, const Case& question) {
+  compare::Doubts doubts = compare::doubts(question);
+  append(doubts, bed_doubts(options.soil_bin, question));
   return doubts;
 }
 
@@ -155,7 +155,7 @@ int converge(const RunOptions& options, const Case& question, const Session& ses
 int plan(const RunOptions& options, const Case& question) {
   const SoilBinFlags& bin = options.soil_bin;
   const compare::RunPlan plan = compare::plan_of(question, settings_of(bin), bin.runs(question), keeping_of(bin));
-  const std::vector<std::string> doubts = doubts_before_runs(options, question);
+  const compare::Doubts doubts = doubts_before_runs(options, question);
   print_warnings(doubts);
   if (options.json)
     print_json(compare::plan_json(plan), doubts);

@@ -52,12 +52,22 @@ Table runs_table(const compare::LogRuns& made) {
   return table;
 }
 
-std::vector<std::string> doubts_of(const compare::LogRuns& made) {
-  std::vector<std::string> doubts;
+compare::Doubts doubts_of(const compare::LoggedRun& one) {
+  constexpr double many = 1e4;
+  compare::Doubts doubts;
+  for (const auto& [title, errors] : one.unsteady)
+    doubts.push_back({compare::DoubtKind::unsteady_samples,
+                      {title, errors < many ? compare::Said(errors) : compare::Said("very many")}});
+  return doubts;
+}
+
+compare::Doubts doubts_of(const compare::LogRuns& made) {
+  compare::Doubts doubts;
   for (const compare::LoggedRun& one : made.runs)
-    for (const std::string& doubt : one.doubts)
-      doubts.push_back(
-          fmt::format("run {}, lines {}: {}", *one.run.at.run, lines_in_words(one.first_line, one.last_line), doubt));
+    for (compare::Doubt& doubt : doubts_of(one)) {
+      doubt.of = fmt::format("run {}, lines {}", *one.run.at.run, lines_in_words(one.first_line, one.last_line));
+      doubts.push_back(std::move(doubt));
+    }
   return doubts;
 }
 
@@ -76,7 +86,7 @@ nlohmann::ordered_json to_json(const compare::LogRuns& made) {
         channel = compare::estimate_json(mean->mean);
         channel["sd"] = mean->sd, channel["effective_samples"] = mean->effective;
       }
-    row["doubts"] = one.doubts;
+    row["doubts"] = in_words(doubts_of(one));
     rows.push_back(std::move(row));
   }
   for (auto& rows = document["left_out"] = nlohmann::ordered_json::array(); const compare::LeftOut& one : made.left_out)
@@ -103,7 +113,7 @@ int runs(const RunsOptions& asked, const Session& session) {
   how.by = asked.by;
   const compare::LogRuns made =
       compare::runs_of_log(compare::read_time_log(read_source_text(asked.file, compare::largest_log), how));
-  const std::vector<std::string> doubts = doubts_of(made);
+  const compare::Doubts doubts = doubts_of(made);
   print_warnings(doubts);
   Outputs outputs;
   outputs.csv(asked.csv, [&] { return compare::runs_csv(made, how.columns); });

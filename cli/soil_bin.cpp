@@ -365,22 +365,17 @@ void tell_unsealed(const compare::ExperimentStore& store, const fs::path& file) 
                file.string(), store.unsealed(), store.size());
 }
 
-std::vector<std::string> bed_doubts(const SoilBinFlags& flags, const Case& question) {
+compare::Doubts bed_doubts(const SoilBinFlags& flags, const Case& question) {
   const std::optional<Bin>& bin = question.scenario.bin;
-  const std::string narrow =
-      compare::narrow_bed_doubt(question.scenario.tire, bin ? bin->width : settings_of(flags).size.width);
-  return narrow.empty() ? std::vector<std::string>{} : std::vector{narrow};
+  return compare::narrow_bed_doubts(question.scenario.tire, bin ? bin->width : settings_of(flags).size.width);
 }
 
 void tell_grain_doubts(const SoilBinFlags& flags, const Case& question) {
   const Scenario& scenario = question.scenario;
   if (!scenario.soil.granular) return;
-  std::vector<std::string> doubts = compare::grain_value_doubts(*scenario.soil.granular);
-  doubts.push_back(compare::soft_grain_doubt(scenario, question.study.conditions, {}));
-  doubts.push_back(compare::coarse_grain_doubt(scenario, {}));
-  for (std::string& doubt : bed_doubts(flags, question)) doubts.push_back(std::move(doubt));
-  for (const std::string& doubt : doubts)
-    if (!doubt.empty()) fmt::print(stderr, "note: {}\n", doubt);
+  compare::Doubts doubts = compare::grain_doubts(scenario, question.study.conditions, {});
+  append(doubts, bed_doubts(flags, question));
+  for (const std::string& line : in_words(doubts)) fmt::print(stderr, "note: {}\n", line);
 }
 
 void delete_restarts(const std::vector<compare::RecordedRun>& runs, const Outputs& outputs) {

@@ -87,8 +87,8 @@ dem::DemSettings settings_of(const SoilBinFlags& flags);
 /// The files of runs that the flags name, and this program as their maker.
 compare::RunKeeping keeping_of(const SoilBinFlags& flags);
 
-/// Doubts in the bed that the flags and the case's bin make under its tire.
-std::vector<std::string> bed_doubts(const SoilBinFlags& flags, const Case& question);
+/// What is doubtful in the bed that the flags and the case's bin make under its tire.
+compare::Doubts bed_doubts(const SoilBinFlags& flags, const Case& question);
 
 /// On standard error, before minutes of grains: that they are coarse for the wheel or too soft, values that are hardly
 /// meant, and bed_doubts. Beside the answer stands what coarse ones do to it.

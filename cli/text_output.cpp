@@ -6,11 +6,11 @@
 
 namespace soilbin::cli {
 
-void print_warnings(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+void print_warnings(const compare::Doubts& doubts) {
+  for (const std::string& line : in_words(doubts)) fmt::print(stderr, "warning: {}\n", line);
 }
 
-void print_json(nlohmann::ordered_json document, const std::vector<std::string>& doubts) {
+void print_json(nlohmann::ordered_json document, const compare::Doubts& doubts) {
   compare::add_warnings(document, doubts);
   fmt::print("{}", compare::json_text(document));
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/doubts/doubt.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/table.hpp"
 
@@ -16,9 +17,9 @@ using compare::Table;
 using compare::TableCell;
 
 /// Each on a line of its own to stderr, as `soilbin check` tells them: "warning: ...".
-void print_warnings(const std::vector<std::string>& warnings);
+void print_warnings(const compare::Doubts& doubts);
 
 /// A document on standard output, with what is doubtful in it.
-void print_json(nlohmann::ordered_json document, const std::vector<std::string>& doubts = {});
+void print_json(nlohmann::ordered_json document, const compare::Doubts& doubts = {});
 
 }  // namespace soilbin::cli

@@ -59,8 +59,6 @@ struct Model {
   virtual std::string name() const = 0;
   /// Throws InputError where the scenario lacks what this model needs, NoSolution where it has no answer.
   virtual TractionResult evaluate(const Scenario&, const OperatingCondition&) const = 0;
-  /// What to know before believing any of its answers, a sentence each.
-  virtual std::vector<std::string> doubts() const { return {}; }
 };
 
 }  // namespace soilbin

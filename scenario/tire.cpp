@@ -28,7 +28,9 @@ std::string why_no_gaps(const Tire& tire) {
       1000 * thickness, 1000 * tire.radius, 2000 * pi * tire.radius / count);
 }
 
-std::string in_words(const Tire& tire) {
+std::string in_words(const Tire& tire) { return in_words(tire, ""); }
+
+std::string in_words(const Tire& tire, std::string_view remark) {
   std::string words = fmt::format("{} (r {:.4g} mm, b {:.4g} mm, ", tire.name.empty() ? "a wheel" : tire.name,
                                   1000 * tire.radius, 1000 * tire.width);
   if (!is_lugged(tire))
@@ -38,7 +40,7 @@ std::string in_words(const Tire& tire) {
   else
     words += fmt::format("lugs of {:.4g} mm", 1000 * tire.lugs.height);
   if (tire.inflation_pressure) words += fmt::format(", {:.4g} kPa", *tire.inflation_pressure / 1000);
-  return words + ")";
+  return words.append(remark) + ")";
 }
 
 }  // namespace soilbin

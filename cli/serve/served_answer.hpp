@@ -17,8 +17,8 @@ struct ServedAnswer {
   Case swept;                                ///< the question at the slips of the curves
   std::vector<compare::ModelAnswers> point;  ///< at the condition that is asked for
   std::vector<compare::ModelAnswers> curves;
-  std::vector<std::string> notes{};  ///< what the tire was taken with: compare::as_declared
-  std::string label{};               ///< what tells it from the one beside it; "" where there is none
+  compare::Doubts notes{};  ///< what the tire was taken with: compare::as_declared
+  std::string label{};      ///< what tells it from the one beside it; "" where there is none
 };
 
 /// The question at the 61 slips of a curve from the first to the second.

@@ -180,7 +180,7 @@ std::vector<ModelAnswers> answers_of(const Case& question, const std::vector<Mod
   for (std::size_t s = 0; s < sides.size(); ++s) {
     if (sides[s].kind == SideKind::measured) continue;
     const bool grains = sides[s].kind == SideKind::grains;
-    study.push_back({grains ? ModelChoice{ModelKind::dem, {}, sides[s].label} : choices.at(s), {}, sides[s].doubts});
+    study.push_back({grains ? ModelChoice{ModelKind::dem, {}, sides[s].label} : choices.at(s), {}});
     for (std::size_t i = 0; i < sides[s].points.size(); ++i)
       study.back().answers.push_back(
           {question.study.conditions[i], sides[s].points[i].result, sides[s].points[i].error});
@@ -206,13 +206,15 @@ bool grains_are_coarse(const Comparison& comparison) {
          grains_are_coarse(question.scenario, answers_of(question, comparison.choices, comparison.sides));
 }
 
-std::vector<std::string> doubts(const Case& question, const std::vector<ModelChoice>& choices,
-                                const std::vector<Side>& sides) {
+Doubts doubts(const Case& question, const std::vector<ModelChoice>& choices, const std::vector<Side>& sides) {
   const std::vector<ModelAnswers> study = answers_of(question, choices, sides);
   Case asked = question;
   asked.study.models.clear();
   for (const ModelAnswers& model : study) asked.study.models.push_back(model.choice);
-  return doubts(asked, study);
+  Doubts of_models;
+  for (const Side& side : sides)
+    if (side.kind != SideKind::measured) append(of_models, side.doubts);
+  return doubts(asked, study, of_models);
 }
 
 }  // namespace soilbin::compare

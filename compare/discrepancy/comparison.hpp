@@ -94,7 +94,6 @@ bool grains_are_coarse(const Comparison& comparison);
 
 /// What is doubtful in models side by side (compare/doubts/doubts.hpp): the analytic ones by `choices`, then grains
 /// where there are any.
-std::vector<std::string> doubts(const Case& question, const std::vector<ModelChoice>& choices,
-                                const std::vector<Side>& sides);
+Doubts doubts(const Case& question, const std::vector<ModelChoice>& choices, const std::vector<Side>& sides);
 
 }  // namespace soilbin::compare

@@ -115,24 +115,21 @@ std::vector<std::vector<const Run*>> setpoints_of(const Campaign& campaign, cons
 }
 
 /// What limits a mean of these runs. `forces`: of how many of them a force was measured.
-std::vector<std::string> doubts_of(const std::vector<const Run*>& runs, std::size_t forces, const NoiseFloor& noise) {
-  std::vector<std::string> doubts;
+Doubts doubts_of(const std::vector<const Run*>& runs, std::size_t forces, const NoiseFloor& noise) {
+  Doubts doubts;
   const auto kept = static_cast<std::size_t>(
       std::ranges::count_if(runs, [](const Run* run) { return run->drawbar_pull || run->lateral_force; }));
   if (kept < forces)
-    doubts.push_back(
-        fmt::format("forces of {} of {} run{} left out: turning them {} takes both drawbar pull and lateral force",
-                    forces - kept, runs.size(), runs.size() == 1 ? "" : "s",
-                    runs.front()->at.force_frame == ForceFrame::travel ? "from the wheel's axes to those of travel"
-                                                                       : "from the axes of travel to the wheel's"));
+    doubts.push_back({runs.front()->at.force_frame == ForceFrame::travel ? DoubtKind::forces_not_turned_to_travel
+                                                                         : DoubtKind::forces_not_turned_to_wheel,
+                      {forces - kept, runs.size()}});
   std::string unknown;
   for (std::size_t c = 0; c < channel_views.size(); ++c)
     if (noise.channels[c].freedom == 0.0 && !values_of(runs, c).empty())
       unknown += fmt::format("{}{}", unknown.empty() ? "" : ", ", channel_views[c].title);
-  if (!unknown.empty()) doubts.push_back("no setpoint was run twice: the scatter is not known (" + unknown + ")");
+  if (!unknown.empty()) doubts.push_back({DoubtKind::no_reruns, {unknown}});
   const auto other = [&](const Run* run) { return run->setpoint != runs.front()->setpoint; };
-  if (std::ranges::any_of(runs, other))
-    doubts.push_back("runs of more than one setpoint: what sets these apart is not in the error");
+  if (std::ranges::any_of(runs, other)) doubts.push_back({DoubtKind::mixed_setpoints});
   return doubts;
 }
 

@@ -18,9 +18,7 @@ namespace {
 void doubt_budget(SidePoint& point) {
   if (!point.result) return;
   const BudgetRest& rest = point.result->budget_rest;
-  if (std::abs(rest.force) > rest.bound)
-    point.doubts.push_back(fmt::format("the parts of the pull leave {:.3g} N unexplained (chance: at most {:.3g} N)",
-                                       rest.force, rest.bound));
+  if (std::abs(rest.force) > rest.bound) point.doubts.push_back({DoubtKind::budget_rest, {rest.force, rest.bound}});
 }
 
 }  // namespace
@@ -61,7 +59,7 @@ Side side_of(const ModelAnswers& answers) {
     if (answer.result && side.kind == SideKind::grains) {
       for (std::size_t c = 0; c < channel_views.size(); ++c)
         point.scatter[c] = ((*answer.result).*channel_views[c].predicted).std_error;
-      point.doubts.push_back("one run: the scatter between bed samples is unknown");
+      point.doubts.push_back({DoubtKind::one_run});
     }
     doubt_budget(point);
     side.points.push_back(std::move(point));
@@ -107,19 +105,15 @@ SidePoint combine(const std::vector<const RecordedRun*>& runs, const PackingScat
   point.result = mean_of_packings(solved);
   add_scatter(solved, all, point);
   if (solved.size() < runs.size())
-    point.doubts.push_back(fmt::format("{} of {} runs without a result", runs.size() - solved.size(), runs.size()));
+    point.doubts.push_back({DoubtKind::runs_without_result, {runs.size() - solved.size(), runs.size()}});
   double most = 0.0;
   for (const RecordedRun* run : solved) {
     if (!run->steady) ++point.unsteady;
     point.drift = std::max(point.drift, run->drift);
     if (std::isfinite(run->drift)) most = std::max(most, run->drift);
   }
-  if (point.unsteady > 0)
-    point.doubts.push_back(
-        fmt::format("{} of {} run{} not steady (drift up to {:.1f} standard errors): lengthen the run", point.unsteady,
-                    solved.size(), solved.size() == 1 ? "" : "s", most));
-  if (solved.size() == 1 && !is_known(all))
-    point.doubts.push_back("one bed sample: the scatter between bed samples is unknown");
+  if (point.unsteady > 0) point.doubts.push_back({DoubtKind::unsteady_runs, {point.unsteady, solved.size(), most}});
+  if (solved.size() == 1 && !is_known(all)) point.doubts.push_back({DoubtKind::one_bed_sample});
   doubt_budget(point);
   return point;
 }
@@ -164,18 +158,15 @@ GrainSide grain_side(const std::vector<RecordedRun>& runs, const std::vector<Ope
   return grains;
 }
 
-std::string bed_density_doubt(const Soil& soil, const std::vector<RecordedRun>& runs) {
+Doubts bed_density_doubts(const Soil& soil, const std::vector<RecordedRun>& runs) {
   constexpr double alike_within = 0.03;  // of the density (chosen: a third of what loose and dense sand differ by)
-  if (!soil.semi_empirical || !soil.semi_empirical->density) return "";
+  if (!soil.semi_empirical || !soil.semi_empirical->density) return {};
   double sum = 0.0, count = 0.0;
   for (const RecordedRun& run : runs)
     if (run.bed.bulk > 0.0) sum += run.bed.bulk, ++count;
   const double declared = *soil.semi_empirical->density, bed = sum / count;
-  if (count == 0.0 || std::abs(bed / declared - 1.0) <= alike_within) return "";
-  return fmt::format(
-      "the grains' bed is {} ({:.0f} kg/m^3) than the soil of the analytic model's values ({:.0f} kg/m^3): measure the "
-      "values on this bed (soilbin bevameter, then --soil)",
-      bed < declared ? "looser" : "denser", bed, declared);
+  if (count == 0.0 || std::abs(bed / declared - 1.0) <= alike_within) return {};
+  return {Doubt{DoubtKind::bed_density, {bed < declared ? "looser" : "denser", bed, declared}}};
 }
 
 }  // namespace soilbin::compare

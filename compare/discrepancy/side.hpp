@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "compare/doubts/doubt.hpp"
 #include "compare/fit/noise_floor.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/recorded/recorded_model.hpp"
@@ -41,11 +42,11 @@ struct SidePoint {
   std::array<double, channel_views.size()> freedom = known_errors();
   /// Channels that the side speaks of; a measurement may lack some.
   std::array<bool, channel_views.size()> has{true, true, true, true};
-  std::size_t runs = 1;             ///< behind the means
-  std::size_t unsteady = 0;         ///< of grains: those of them that did not become steady
-  double drift = 0.0;               ///< of grains: the largest of theirs (RecordedRun)
-  std::vector<std::string> doubts;  ///< what limits them: "1 of 2 runs not steady"
-  std::string error;                ///< why there is no result
+  std::size_t runs = 1;      ///< behind the means
+  std::size_t unsteady = 0;  ///< of grains: those of them that did not become steady
+  double drift = 0.0;        ///< of grains: the largest of theirs (RecordedRun)
+  Doubts doubts;             ///< what limits them: unsteady_runs, one_bed_sample
+  std::string error;         ///< why there is no result
 };
 
 /// A model or the measurement, a point for each condition of the study.
@@ -59,7 +60,7 @@ struct Side {
   std::optional<NoiseFloor> noise{};
   /// Of a measurement: the runs behind the points as they were measured, in the campaign's own frame and slip.
   std::vector<Run> runs{};
-  std::vector<std::string> doubts{};  ///< in all its points: Model::doubts
+  Doubts doubts{};  ///< in all its points: whether a record hangs on the time step
 };
 
 /// A model's answers as a side. Of grains, scatter is the answers' standard error.
@@ -91,9 +92,9 @@ struct GrainSide {
 GrainSide grain_side(const std::vector<RecordedRun>& runs, const std::vector<OperatingCondition>& conditions,
                      const std::filesystem::path& record);
 
-/// Whether the bed was looser or denser, by more than 3 %, than the soil whose values the analytic model has; "" where
-/// either density is not known.
-std::string bed_density_doubt(const Soil& soil, const std::vector<RecordedRun>& runs);
+/// Whether the bed was looser or denser, by more than 3 %, than the soil whose values the analytic model has; none
+/// where either density is not known.
+Doubts bed_density_doubts(const Soil& soil, const std::vector<RecordedRun>& runs);
 
 /// How far a measured run may be from a study's condition and still count as one of it: share of the load, slip [-],
 /// angles [rad].

@@ -35,31 +35,21 @@ double si_of_one(const DataColumn& column) {
 struct Correction {
   std::vector<std::string_view> columns;  ///< the quantities
   std::function<void(Run&)> undo;
-  std::string warning;
+  Doubt doubt;
   bool by_power_of_ten = false;
 };
 
-/// "runs.csv:1:5: column 'My' looks 10 times too large: with its values divided by 10 the prediction fits far better;
-/// HINT", at the header.
-std::string looks(const DataColumn& column, const std::string& what, const std::string& with, const std::string& hint) {
-  return fmt::format("{}column '{}' looks {}: with {} the prediction fits far better; {}", place_of(column),
-                     clipped(column.header), what, with, hint);
-}
-
-/// "look at its unit, 'kN m', in its header or under 'columns:' in campaign.yaml"
-std::string look_at_unit(const DataColumn& column) {
-  const bool in_a_file = column.at.line > 0, has_unit = !column.unit.empty() && column.unit != "-";
-  return "look at its unit" + (has_unit ? fmt::format(", '{}'", column.unit) : "") +
-         (in_a_file ? ", in its header or under 'columns:' in campaign.yaml" : "");
+/// A doubt about a column's unit, at its header: place, header, by how much it is off, unit, the unit that it may have.
+Doubt doubt_of_unit(DoubtKind kind, const DataColumn& column, double times, const char* unit = "") {
+  return {kind, {place_of(column), clipped(column.header), times, column.unit == "-" ? "" : column.unit, unit}};
 }
 
 /// Signs as docs/reference/conventions.md has them. That of the sinkage shows by itself (row_doubts.cpp).
 void add_flipped_signs(const Campaign& campaign, std::vector<Correction>& all) {
   const auto add = [&](std::string_view quantity, const char* positive, std::function<void(Run&)> undo) {
-    all.push_back({{quantity},
-                   std::move(undo),
-                   looks(column_of(campaign, quantity), "as if its sign were flipped", "the other sign",
-                         fmt::format("change the sign in the file if so: positive {}", positive))});
+    const DataColumn column = column_of(campaign, quantity);
+    all.push_back(
+        {{quantity}, std::move(undo), {DoubtKind::flipped_sign, {place_of(column), clipped(column.header), positive}}});
   };
   const auto channel = [&](std::string_view quantity, std::optional<double> Run::*measured, const char* positive) {
     add(quantity, positive, [measured](Run& run) {
@@ -73,30 +63,25 @@ void add_flipped_signs(const Campaign& campaign, std::vector<Correction>& all) {
 }
 
 void add_powers_of_ten(const Campaign& campaign, std::vector<Correction>& all) {
-  for (const ChannelView& view : channel_views) {
-    const DataColumn column = column_of(campaign, view.name);
+  for (const ChannelView& view : channel_views)
     for (const double power : {10.0, 100.0, 1000.0})
       for (const bool large : {true, false})
-        all.push_back(
-            {{view.name},
-             [measured = view.measured, times = large ? 1 / power : power](Run& run) {
-               if (run.*measured) *(run.*measured) *= times;
-             },
-             looks(column, fmt::format("{:g} times too {}", power, large ? "large" : "small"),
-                   fmt::format("its values {} by {:g}", large ? "divided" : "multiplied", power), look_at_unit(column)),
-             true});
-  }
+        all.push_back({{view.name},
+                       [measured = view.measured, times = large ? 1 / power : power](Run& run) {
+                         if (run.*measured) *(run.*measured) *= times;
+                       },
+                       doubt_of_unit(large ? DoubtKind::column_too_large : DoubtKind::column_too_small,
+                                     column_of(campaign, view.name), power),
+                       true});
 }
 
 /// Shares under a heading that says %, and the other way round.
 void add_slips_in_another_unit(const Campaign& campaign, std::vector<Correction>& all) {
-  const DataColumn column = column_of(campaign, "slip");
-  for (const auto& [times, what, with] :
-       {std::tuple{100.0, "as if it held shares where % are declared", "slips 100 times as large"},
-        std::tuple{0.01, "as if it held % where shares are declared", "slips a hundredth as large"}})
+  for (const auto& [kind, times] :
+       {std::pair{DoubtKind::slip_in_shares, 100.0}, std::pair{DoubtKind::slip_in_percent, 0.01}})
     all.push_back({{"slip"},
                    [factor = times](Run& run) { run.at.slip *= factor; },
-                   looks(column, what, with, look_at_unit(column))});
+                   doubt_of_unit(kind, column_of(campaign, "slip"), times)});
 }
 
 /// Loads in kilograms, pounds or kilonewtons under a heading that says newtons, and the like; a decimal point that
@@ -107,23 +92,19 @@ void add_loads_in_another_unit(const Campaign& campaign, std::vector<Correction>
     const double newtons = read_quantity(one, {"N", above_zero});
     all.push_back({{"load"},
                    [newtons](Run& run) { run.at.load *= newtons; },
-                   looks(column, fmt::format("as if it were in {}", unit),
-                         fmt::format("loads {:.4g} times as large", newtons), look_at_unit(column))});
+                   doubt_of_unit(DoubtKind::load_in_another_unit, column, newtons, unit)});
   }
   for (const double power : {10.0, 100.0, 1000.0})  // ten times too small is as good as in kg, a thousand times in kN
     all.push_back({{"load"},
                    [power](Run& run) { run.at.load /= power; },
-                   looks(column, fmt::format("{:g} times too large", power),
-                         fmt::format("its values divided by {:g}", power), look_at_unit(column))});
+                   doubt_of_unit(DoubtKind::column_too_large, column, power)});
 }
 
-/// "runs.csv:1:34: the columns 'drawbar_pull_N' and 'torque_Nm' look swapped: ...", at the second of them.
-std::string swapped(const Campaign& campaign, std::string_view one, std::string_view other, const char* why) {
+/// At the second of two columns.
+Doubt doubt_of_swap(DoubtKind kind, const Campaign& campaign, std::string_view one, std::string_view other) {
   DataColumn first = column_of(campaign, one), second = column_of(campaign, other);
   if (second.at.column < first.at.column) std::swap(first, second);
-  return fmt::format("{}the columns '{}' and '{}' look swapped: {}; look at the header{}", place_of(second),
-                     first.header, second.header, why,
-                     campaign.columns.empty() ? "" : ", and at 'columns:' in campaign.yaml");
+  return {kind, {place_of(second), first.header, second.header, campaign.columns.empty() ? "" : "campaign.yaml"}};
 }
 
 /// A heading over the numbers of another: its unit goes with it.
@@ -137,7 +118,7 @@ void add_swapped_columns(const Campaign& campaign, std::vector<Correction>& all)
                        if (run.*a) *(run.*a) *= ratio;
                        if (run.*b) *(run.*b) /= ratio;
                      },
-                     swapped(campaign, one->name, other->name, "each fits the prediction of the other far better")});
+                     doubt_of_swap(DoubtKind::columns_swapped, campaign, one->name, other->name)});
     }
   const auto positive = [](const Run& run) { return run.drawbar_pull.value_or(1.0) > 0.0; };
   if (!std::ranges::all_of(campaign.runs, positive)) return;  // no load is negative
@@ -147,7 +128,7 @@ void add_swapped_columns(const Campaign& campaign, std::vector<Correction>& all)
                    if (run.drawbar_pull)
                      run.at.load = ratio * std::exchange(run.drawbar_pull, run.at.load / ratio).value();
                  },
-                 swapped(campaign, "load", "drawbar_pull", "exchanged, they fit the prediction far better")});
+                 doubt_of_swap(DoubtKind::load_swapped, campaign, "load", "drawbar_pull")});
 }
 
 /// All that is looked for.
@@ -290,10 +271,9 @@ Compared some_rows(const Campaign& campaign, const std::vector<Answer>& answers)
 
 }  // namespace
 
-std::vector<std::string> column_doubts(const Campaign& campaign, const std::vector<Answer>& answers,
-                                       const AskAgain& ask) {
+Doubts column_doubts(const Campaign& campaign, const std::vector<Answer>& answers, const AskAgain& ask) {
   constexpr double clearly = 0.5;
-  std::vector<std::string> warnings;
+  Doubts found;
   std::set<std::string_view> told;
   Compared rows = some_rows(campaign, answers);
   const std::vector<Correction> all = corrections(campaign);
@@ -308,8 +288,8 @@ std::vector<std::string> column_doubts(const Campaign& campaign, const std::vect
       if (!left || !(left->mean < clearly && left->log_product < least)) continue;
       least = left->log_product, best = &correction, best_rows = std::move(other);
     }
-    if (!best) return warnings;
-    warnings.push_back(best->warning);
+    if (!best) return found;
+    found.push_back(best->doubt);
     told.insert(best->columns.begin(), best->columns.end());
     rows = std::move(best_rows);  // what is left of the others, with this one put right
   }

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <functional>
-#include <string>
 #include <vector>
 
+#include "compare/doubts/doubt.hpp"
 #include "compare/measured/campaign.hpp"
 #include "compare/sweep/answers.hpp"
 
@@ -18,7 +18,6 @@ using AskAgain = std::function<std::vector<Answer>(const std::vector<OperatingCo
 /// flipped (pull, torque, lateral force, slip), numbers a power of ten too large or too small (channels), slips or
 /// loads in another unit, two columns swapped. Each column is named once at most, with what fits best; the rest is
 /// judged with that put right. Of more than 200 runs some are looked at, evenly.
-std::vector<std::string> column_doubts(const Campaign& campaign, const std::vector<Answer>& answers,
-                                       const AskAgain& ask);
+Doubts column_doubts(const Campaign& campaign, const std::vector<Answer>& answers, const AskAgain& ask);
 
 }  // namespace soilbin::compare

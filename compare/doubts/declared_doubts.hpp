@@ -2,21 +2,19 @@
 // (doubts.hpp).
 #pragma once
 
-#include <string>
-#include <vector>
-
+#include "compare/doubts/doubt.hpp"
 #include "scenario/soil.hpp"
 #include "scenario/tire.hpp"
 
 namespace soilbin::compare {
 
 /// Of a soil by itself: values out of the usual, no strength, nothing carried, hardly known.
-std::vector<std::string> doubts(const Soil& soil);
+Doubts doubts(const Soil& soil);
 
 /// Of a wheel by itself: its proportions.
-std::vector<std::string> doubts(const Tire& tire);
+Doubts doubts(const Tire& tire);
 
 /// The same on a soil, which may carry nothing for this width.
-std::vector<std::string> doubts(const Tire& tire, const Soil& soil);
+Doubts doubts(const Tire& tire, const Soil& soil);
 
 }  // namespace soilbin::compare

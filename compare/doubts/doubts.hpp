@@ -1,12 +1,14 @@
 // The one list of doubts: what a person should know before believing an answer. The readers rightly accept what stands
 // here; but it is hardly meant, has no influence, or lies beyond what a model can tell.
 //
-// Who answers a question asks `doubts` with the question and its answers and tells all that it gives: as lines
-// "warning: ..." beside the answer, as "warnings" in JSON (add_warnings), as a list on a page (PageAbout::doubts).
+// Who answers a question asks `doubts` with the question and its answers and tells all that it gives (doubt.hpp): as
+// lines "warning: ..." beside the answer, as "warnings" in JSON (add_warnings), as a list on a page
+// (PageAbout::doubts).
 //
-//   for (const std::string& doubt : doubts(question)) std::cerr << "warning: " << doubt << '\n';
+//   for (const std::string& line : in_words(doubts(question))) std::cerr << "warning: " << line << '\n';
 //
-// What is doubtful is decided in this folder, so that every command tells the same:
+// What is doubtful is decided in this folder, so that every command tells the same, and worded in one table
+// (doubt_words.cpp):
 //
 //   a soil by itself     values out of the usual, no strength, nothing carried     declared_doubts.cpp
 //   a wheel on a soil    proportions, a width for which the soil carries nothing   declared_doubts.cpp
@@ -16,7 +18,7 @@
 //   grains               odd values, too soft or coarse, a law that hangs on the   grain_doubts.cpp
 //                        step
 //   measured rows        repeated, flipped, impossible                             row_doubts.cpp
-//                        samples of a log in place of runs
+//                        samples of a log in place of runs                       log_signs.cpp
 //   measured columns     swapped, in another unit, of another sign                 column_doubts.cpp
 //   measured plates      a modulus below 0, no repeats, a form that misses         plate_doubts.cpp
 //
@@ -28,6 +30,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/doubts/doubt.hpp"
 #include "compare/measured/campaign.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/prediction.hpp"
@@ -37,30 +40,28 @@
 namespace soilbin::compare {
 
 /// Of a question and the answers to it, by any model. What no answer was found to is not among them: answers say that
-/// themselves. `study` may be empty, and its models need not be all of the question's.
-std::vector<std::string> doubts(const Case& question, const std::vector<ModelAnswers>& study);
+/// themselves. `study` may be empty, and its models need not be all of the question's. `of_models`: what else is
+/// doubtful in their answers; told among the others.
+Doubts doubts(const Case& question, const std::vector<ModelAnswers>& study, const Doubts& of_models = {});
 
 /// The question's tire, for the first line of an answer; says where its lugs change nothing.
 std::string tire_in_words(const Case& question);
 
 /// Of a question that nobody has answered yet: asks its analytic models, tells where they have no answer, and looks at
 /// the soil's grains too, which `--model dem` would take.
-std::vector<std::string> doubts(const Case& question);
+Doubts doubts(const Case& question);
 
 /// Of a campaign and a prediction of it by `asked`: the wheel with that soil and these effects, and the rows.
-std::vector<std::string> doubts(const Campaign& campaign, const Scenario& asked, const Prediction& prediction);
+Doubts doubts(const Campaign& campaign, const Scenario& asked, const Prediction& prediction);
 
 /// Of a campaign, by the model that it declares; tells where that has no answer.
-std::vector<std::string> doubts(const Campaign& campaign);
-
-struct DoubtsBeforeFit {
-  std::vector<std::string> all;
-  /// Those of them that take a column for mistaken or the rows for samples of a log: no verdict holds beside one.
-  std::vector<std::string> columns;
-};
+Doubts doubts(const Campaign& campaign);
 
 /// The same before a fit that looks for effects: without what the declared model alone doesn't hear of.
-DoubtsBeforeFit doubts_before_fit(const Campaign& campaign);
+Doubts doubts_before_fit(const Campaign& campaign);
+
+/// Those that take a column for mistaken or the rows for samples of a log: no verdict holds beside one.
+Doubts of_mistaken_columns(Doubts doubts);
 
 /// What is doubtful in one answer, for its row of a table: without the condition, which stands there. "" where nothing
 /// is. An answer that is none says why by itself.

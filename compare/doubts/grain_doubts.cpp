@@ -1,7 +1,5 @@
 #include "compare/doubts/grain_doubts.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -27,20 +25,25 @@ void each_answer_for_grains(const std::vector<ModelAnswers>& study, const Use& u
         use(answer, of_grains ? SinkageOf::grains : SinkageOf::another_model);
 }
 
-/// By how much coarse grains change an answer: where the study of it reaches, at the condition where that is most.
-std::string by_how_much(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
-  std::optional<ResolutionError> largest;
-  OperatingCondition where;
-  std::string beyond;
+/// By how much coarse grains change an answer, where the study of it reaches: most, and at which condition.
+struct CoarseGrainsDo {
+  std::optional<ResolutionError> largest{};
+  std::optional<OperatingCondition> at{};
+  std::string beyond{};  ///< why nothing is known; "" too where nothing was asked
+};
+
+CoarseGrainsDo what_coarse_grains_do(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
+  CoarseGrainsDo most;
   each_answer_for_grains(study, [&](const Answer& answer, SinkageOf whose) {
     ResolutionError error = resolution_error(scenario, answer.at, answer.result->sinkage.value, whose);
-    if (!error.known() && beyond.empty()) beyond = error.beyond;
+    const std::optional<ResolutionError>& largest = most.largest;
+    if (!error.known() && most.beyond.empty()) most.beyond = error.beyond;
     if (!error.known() || (largest && std::abs(error.drawbar_pull.value) <= std::abs(largest->drawbar_pull.value)))
       return;
-    largest = std::move(error), where = answer.at;
+    most.largest = std::move(error), most.at = answer.at;
   });
-  if (largest) return fmt::format(": estimated error {} ({})", in_words(*largest), in_words(where));
-  return beyond.empty() ? "" : fmt::format(": the error is unknown, since {}", beyond);
+  if (most.largest) most.beyond.clear();
+  return most;
 }
 
 bool are_coarse(const GrainCounts& counts) {
@@ -49,22 +52,15 @@ bool are_coarse(const GrainCounts& counts) {
 }
 
 /// The angular speed below which two mean grains that 100 N press together are damped by I*/dt instead of by mu_r.
-std::string depends_on_the_step(const GranularSoil& grains) {
+Doubts step_dependent_rolling(const GranularSoil& grains) {
   const bool resisted = grains.grain_grain.rolling_friction > 0.0 || grains.grain_tire.rolling_friction > 0.0;
   const bool with_twist = grains.rolling_resistance == RollingResistance::directional_with_twist;
-  if ((grains.rolling_resistance != RollingResistance::directional && !with_twist) || !resisted) return "";
+  if ((grains.rolling_resistance != RollingResistance::directional && !with_twist) || !resisted) return {};
   const double r = mean_diameter(grains) / 2.0, step = dem::longest_step(grains);
   const double mass = 4.0 / 3.0 * std::numbers::pi * grains.grain_density * r * r * r, inertia = 0.2 * mass * r * r;
   const double speed = grains.grain_grain.rolling_friction * r / 2.0 * 100.0 * step / inertia;
-  std::string text = fmt::format(
-      "with the rolling law '{}' answers depend on the time step: below the angular speed mu_r R* F_N dt/I* a contact "
-      "is "
-      "a dashpot of I*/dt, whatever mu_r. At the longest step, {:.3g} ms, two mean grains that 100 N press "
-      "together are so below {:.2g} rad/s. At a quarter of the step a tire of 0.5 m radius at 4 kN, 20 % slip pulled "
-      "1183 ± 43 N in place of 773 ± 19 N. rolling_resistance: elastic_plastic does not depend on it",
-      with_twist ? "directional_with_twist" : "directional", 1e3 * step, speed);
-  if (with_twist) text += ". This law also resists spin about the contact's normal, which the published one does not";
-  return text;
+  const char* law = with_twist ? "directional_with_twist" : "directional";
+  return {Doubt{DoubtKind::rolling_depends_on_step, {law, 1e3 * step, speed, with_twist ? law : ""}}};
 }
 
 /// E* of two of these grains [Pa].
@@ -90,25 +86,13 @@ double overlap_by_cohesion(const GranularSoil& grains) {
   return 0.5 * root * root;
 }
 
-/// An overlap over the radius, in words.
-std::string of_radius(double overlap) {
-  return overlap < 1.0 ? fmt::format("about {:.2g} % of their radius", 100 * overlap) : "more than their radius";
-}
-
-std::string modulus_text(double modulus) {
-  if (modulus < 1e3) return fmt::format("{:.3g} Pa", modulus);
-  return modulus < 1e6 ? fmt::format("{:.3g} kPa", modulus / 1e3) : fmt::format("{:.3g} MPa", modulus / 1e6);
-}
-
-std::string cohesion_doubt(const GranularSoil& grains) {
-  if (!(grains.youngs_modulus > 0.0)) return "";
+Doubts cohesion_doubts(const GranularSoil& grains) {
+  if (!(grains.youngs_modulus > 0.0)) return {};
   const double overlap = overlap_by_cohesion(grains);
-  if (!(overlap > deep_overlap)) return "";
+  if (!(overlap > deep_overlap)) return {};
   const double holds = reduced_modulus(grains) * std::sqrt(2.0 * deep_overlap) / (0.75 * std::numbers::pi);
-  return fmt::format(
-      "the cohesion of grain_grain, {:.6g} kJ/m^3, alone pulls these grains into each other by {}: Hertz's law holds "
-      "for small overlaps; less than {:.3g} kJ/m^3 keeps it below {:.0f} %",
-      grains.grain_grain.cohesion / 1e3, of_radius(overlap), holds / 1e3, 100 * deep_overlap);
+  return {Doubt{DoubtKind::cohesion_presses_grains,
+                {grains.grain_grain.cohesion / 1e3, overlap, holds / 1e3, 100 * deep_overlap}}};
 }
 
 /// The largest pressure under the wheel: over its width and the contact of the answers, at least a grain long; where
@@ -137,48 +121,38 @@ Pressed largest_pressure(const Scenario& scenario, const std::vector<OperatingCo
 
 }  // namespace
 
-std::string soft_grain_doubt(const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
-                             const std::vector<ModelAnswers>& study) {
-  if (!scenario.soil.granular || !(scenario.soil.granular->youngs_modulus > 0.0)) return "";
+Doubts soft_grain_doubts(const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
+                         const std::vector<ModelAnswers>& study) {
+  if (!scenario.soil.granular || !(scenario.soil.granular->youngs_modulus > 0.0)) return {};
   const GranularSoil& grains = *scenario.soil.granular;
   const Pressed most = largest_pressure(scenario, conditions, study);
   const double overlap = overlap_under(most.pressure / reduced_modulus(grains));
-  if (!(overlap > deep_overlap)) return "";
+  if (!(overlap > deep_overlap)) return {};
   const double needed = most.pressure / pressure_for(deep_overlap) / reduced_modulus(grains) * grains.youngs_modulus;
-  return fmt::format(
-      "grains this soft, {}, are pressed into each other by {} under the wheel's {:.2g} kPa ({}): Hertz's law holds "
-      "for small overlaps, and a run stops at 50 %; a youngs_modulus of {:.2g} MPa or more keeps them below {:.0f} %",
-      modulus_text(grains.youngs_modulus), of_radius(overlap), most.pressure / 1e3, in_words(most.at), needed / 1e6,
-      100 * deep_overlap);
+  return {Doubt{DoubtKind::soft_grains,
+                {grains.youngs_modulus, overlap, most.pressure / 1e3, needed / 1e6, 100 * deep_overlap},
+                most.at}};
 }
 
-std::string narrow_bed_doubt(const Tire& tire, double bed_width) {
+Doubts narrow_bed_doubts(const Tire& tire, double bed_width) {
   const double widths = bed_width / tire.width;
-  if (!(widths < wide_bed * (1 - 1e-9))) return "";
-  return fmt::format(
-      "the bed is {:.3g} tire widths wide, and its walls hold the soil: at 2 widths the paper's tire pulled 17 ± 4 % "
-      "more "
-      "than at 2.6; take {:.3g} m or more",
-      widths, 2.6 * tire.width);
+  if (!(widths < wide_bed * (1 - 1e-9))) return {};
+  return {Doubt{DoubtKind::narrow_bed, {widths, 2.6 * tire.width}}};
 }
 
-std::vector<std::string> grain_value_doubts(const GranularSoil& grains) {
-  std::vector<std::string> doubts;
+Doubts grain_value_doubts(const GranularSoil& grains) {
+  Doubts doubts;
   const double density = grains.grain_density;
   if (density > 0.0 && (density < 500.0 || density > 8000.0))
-    doubts.push_back(fmt::format("grain_density = {:.4g} kg/m^3 is outside 500 .. 8000: quartz has 2650, steel 7850{}",
-                                 density, density < 10.0 ? "; is it meant in g/cm^3, 1000 times as much?" : ""));
+    doubts.push_back(
+        {density < 10.0 ? DoubtKind::grain_density_in_g_cm3 : DoubtKind::unusual_grain_density, {density}});
   for (const auto& [name, pair] : {std::pair{"grain_grain", &grains.grain_grain}, {"grain_tire", &grains.grain_tire}})
     if (pair->sliding_friction > 1.5)
-      doubts.push_back(fmt::format("sliding_friction of {} = {:.4g} is above 1.5: rock on rock has 0.4 .. 1", name,
-                                   pair->sliding_friction));
+      doubts.push_back({DoubtKind::unusual_sliding_friction, {name, pair->sliding_friction}});
   if (grains.radius_min > 0.0 && grains.radius_max > 5.0 * grains.radius_min)
-    doubts.push_back(fmt::format(
-        "radius_max is {:.2g} times radius_min, more than 5: the smallest grains set the time step and the number of "
-        "grains, the largest the size of the bed, so runs take very long",
-        grains.radius_max / grains.radius_min));
-  for (const std::string& doubt : {cohesion_doubt(grains), depends_on_the_step(grains)})
-    if (!doubt.empty()) doubts.push_back(doubt);
+    doubts.push_back({DoubtKind::wide_grain_radii, {grains.radius_max / grains.radius_min}});
+  append(doubts, cohesion_doubts(grains));
+  append(doubts, step_dependent_rolling(grains));
   return doubts;
 }
 
@@ -186,15 +160,18 @@ bool grains_are_coarse(const Scenario& scenario, const std::vector<ModelAnswers>
   return scenario.soil.granular && are_coarse(count_grains(scenario, study));
 }
 
-std::string coarse_grain_doubt(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
-  if (!scenario.soil.granular) return "";
+Doubts coarse_grain_doubts(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
+  if (!scenario.soil.granular) return {};
   const GrainCounts counts = count_grains(scenario, study);
-  if (!are_coarse(counts)) return "";
-  std::string lengths = fmt::format("{:.2g} across its width ({} wanted)", counts.width, grains_wanted);
-  if (counts.contact) lengths += fmt::format(", {:.2g} along its contact ({})", *counts.contact, grains_wanted);
-  if (counts.lug) lengths += fmt::format(", {:.2g} in a lug's height ({})", *counts.lug, grains_wanted_in_a_lug);
-  return fmt::format("the grains are coarse for this wheel{}. Mean diameter {:.3g} mm: {}. See docs/lab/grain-size.md",
-                     by_how_much(scenario, study), 1000 * counts.diameter, lengths);
+  if (!are_coarse(counts)) return {};
+  const CoarseGrainsDo most = what_coarse_grains_do(scenario, study);
+  const auto if_any = [](const auto& length, double value) { return length ? Said(value) : Said(""); };
+  return {
+      Doubt{DoubtKind::coarse_grains,
+            {most.largest ? in_words(*most.largest) : "", most.beyond, 1000 * counts.diameter, counts.width,
+             grains_wanted, if_any(counts.contact, counts.contact.value_or(0)), if_any(counts.contact, grains_wanted),
+             if_any(counts.lug, counts.lug.value_or(0)), if_any(counts.lug, grains_wanted_in_a_lug)},
+            most.at}};
 }
 
 GrainCounts count_grains(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
@@ -211,12 +188,12 @@ GrainCounts count_grains(const Scenario& scenario, const std::vector<ModelAnswer
   return counts;
 }
 
-std::vector<std::string> grain_doubts(const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
-                                      const std::vector<ModelAnswers>& study) {
+Doubts grain_doubts(const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
+                    const std::vector<ModelAnswers>& study) {
   if (!scenario.soil.granular) return {};
-  std::vector<std::string> doubts = grain_value_doubts(*scenario.soil.granular);
-  for (const std::string& doubt : {soft_grain_doubt(scenario, conditions, study), coarse_grain_doubt(scenario, study)})
-    if (!doubt.empty()) doubts.push_back(doubt);
+  Doubts doubts = grain_value_doubts(*scenario.soil.granular);
+  append(doubts, soft_grain_doubts(scenario, conditions, study));
+  append(doubts, coarse_grain_doubts(scenario, study));
   return doubts;
 }
 

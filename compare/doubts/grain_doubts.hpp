@@ -2,9 +2,9 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "compare/doubts/doubt.hpp"
 #include "compare/sweep/answers.hpp"
 
 namespace soilbin::compare {
@@ -26,10 +26,10 @@ inline constexpr double grains_wanted = 10.0, grains_wanted_in_a_lug = 1.0;
 /// r acos(1 - z/r) with the answer's sinkage z; those of grains are taken where there are any.
 GrainCounts count_grains(const Scenario& scenario, const std::vector<ModelAnswers>& study);
 
-/// Two sentences on grains that are coarse for the wheel: what that is estimated to do to the answer where that is
-/// most, and how many lie along its lengths. "" where they are fine. Of several studies of one wheel: their answers
-/// together. "" too where the soil has no grains.
-std::string coarse_grain_doubt(const Scenario& scenario, const std::vector<ModelAnswers>& study);
+/// One on grains that are coarse for the wheel: what that is estimated to do to the answer where that is most, and how
+/// many lie along its lengths. None where they are fine or the soil has none. Of several studies of one wheel: their
+/// answers together.
+Doubts coarse_grain_doubts(const Scenario& scenario, const std::vector<ModelAnswers>& study);
 
 /// Whether they are.
 bool grains_are_coarse(const Scenario& scenario, const std::vector<ModelAnswers>& study);
@@ -38,27 +38,26 @@ bool grains_are_coarse(const Scenario& scenario, const std::vector<ModelAnswers>
 /// half a radius, and single contacts bear several times the mean.
 inline constexpr double deep_overlap = 0.2;
 
-/// One sentence on grains that the wheel's pressure presses into each other by more than deep_overlap, where that is
+/// One on grains that the wheel's pressure presses into each other by more than deep_overlap, where that is
 /// most. The contact's length follows from the answers' sinkage; where there are none, half the wheel's radius is taken
-/// at each of the conditions. "" elsewhere.
-std::string soft_grain_doubt(const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
-                             const std::vector<ModelAnswers>& study);
+/// at each of the conditions. None elsewhere.
+Doubts soft_grain_doubts(const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
+                         const std::vector<ModelAnswers>& study);
 
 /// Of the tire's width, under which a bed's walls are doubted (chosen). At 2 widths they held the soil, at 2.6 the
 /// paper's results were had (docs/lab/grain-size.md).
 inline constexpr double wide_bed = 2.5;
 
-/// One sentence on a bed of this width [m] whose walls are near the tire; "" where they aren't.
-std::string narrow_bed_doubt(const Tire& tire, double bed_width);
+/// One on a bed of this width [m] whose walls are near the tire.
+Doubts narrow_bed_doubts(const Tire& tire, double bed_width);
 
 /// Of the values by themselves: a density that no grain has, friction of more than any rock's, radii that differ by so
 /// much that runs take very long, cohesion that presses grains into each other by more than deep_overlap; the
 /// directional rolling laws, whose answers depend on the time step, with where they turn into a dashpot.
-std::vector<std::string> grain_value_doubts(const GranularSoil& grains);
+Doubts grain_value_doubts(const GranularSoil& grains);
 
-/// Sentences, each kind once: grain_value_doubts, soft_grain_doubt, coarse_grain_doubt. Empty where the soil has no
-/// grains.
-std::vector<std::string> grain_doubts(const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
-                                      const std::vector<ModelAnswers>& study);
+/// Each kind once: grain_value_doubts, soft_grain_doubts, coarse_grain_doubts. None where the soil has no grains.
+Doubts grain_doubts(const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
+                    const std::vector<ModelAnswers>& study);
 
 }  // namespace soilbin::compare

@@ -18,41 +18,46 @@ bool same_wheel_on_grains(const Scenario& a, const Scenario& b) {
 }  // namespace
 
 void NamedDoubts::add(const std::string& name, const Case& question, const std::vector<ModelAnswers>& study) {
-  const std::string coarse_grains = coarse_grain_doubt(question.scenario, study);
-  for (const std::string& doubt : doubts(question, study)) {
-    if (doubt != coarse_grains) {
-      add(name, std::vector{doubt});
+  for (const Doubt& doubt : doubts(question, study)) {
+    if (doubt.kind != DoubtKind::coarse_grains) {
+      add(name, Doubts{doubt});
       continue;
     }
     const auto known = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& one) {
       return one.grains && same_wheel_on_grains(one.grains->scenario, question.scenario);
     });
     if (known == entries_.end()) {
-      entries_.push_back({name, "", OnGrains{question.scenario, study}});
+      entries_.push_back({doubt, OnGrains{question.scenario, study}});
+      entries_.back().doubt.of = name;
     } else {
-      known->names += ", " + name;
+      known->doubt.of += ", " + name;
       known->grains->study.insert(known->grains->study.end(), study.begin(), study.end());
     }
   }
 }
 
-void NamedDoubts::add(const std::string& name, const std::vector<std::string>& doubts) {
-  for (const std::string& doubt : doubts) {
-    const auto known =
-        std::find_if(entries_.begin(), entries_.end(), [&](const Entry& one) { return one.doubt == doubt; });
-    if (known == entries_.end())
-      entries_.push_back({name, doubt, {}});
-    else
-      known->names += ", " + name;
+void NamedDoubts::add(const std::string& name, const Doubts& doubts) {
+  for (Doubt doubt : doubts) {
+    const auto known = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& one) {
+      doubt.of = one.doubt.of;
+      return one.doubt == doubt;
+    });
+    if (known != entries_.end()) {
+      known->doubt.of += ", " + name;
+      continue;
+    }
+    doubt.of = name;
+    entries_.push_back({doubt, {}});
   }
 }
 
-std::vector<std::string> NamedDoubts::lines() const {
-  std::vector<std::string> lines;
-  for (const Entry& one : entries_)
-    lines.push_back(one.names + ": " +
-                    (one.grains ? coarse_grain_doubt(one.grains->scenario, one.grains->study) : one.doubt));
-  return lines;
+Doubts NamedDoubts::all() const {
+  Doubts all;
+  for (const Entry& one : entries_) {
+    all.push_back(one.grains ? coarse_grain_doubts(one.grains->scenario, one.grains->study).front() : one.doubt);
+    all.back().of = one.doubt.of;
+  }
+  return all;
 }
 
 }  // namespace soilbin::compare

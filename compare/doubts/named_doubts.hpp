@@ -2,7 +2,7 @@
 //
 //   NamedDoubts named;
 //   for (...) named.add(question.study.name, question, study);
-//   print_warnings(named.lines());  // "paper-straight, paper-transverse: the tire's lugs change nothing: ..."
+//   print_warnings(named.all());  // "paper-straight, paper-transverse: the tire's lugs change nothing: ..."
 //
 // Studies of the same wheel on the same grains differ only in the figures of the doubt about coarse grains: it is given
 // once, with the worst figures.
@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/doubts/doubt.hpp"
 #include "compare/sweep/answers.hpp"
 #include "scenario/case.hpp"
 
@@ -22,9 +23,9 @@ class NamedDoubts {
   /// Those of a study and its answers.
   void add(const std::string& name, const Case& question, const std::vector<ModelAnswers>& study);
   /// Those that somebody else has found.
-  void add(const std::string& name, const std::vector<std::string>& doubts);
-  /// In the order in which they came.
-  std::vector<std::string> lines() const;
+  void add(const std::string& name, const Doubts& doubts);
+  /// In the order in which they came, each with its names (Doubt::of).
+  Doubts all() const;
 
  private:
   struct OnGrains {
@@ -32,7 +33,7 @@ class NamedDoubts {
     std::vector<ModelAnswers> study;  ///< of all that share the doubt
   };
   struct Entry {
-    std::string names, doubt;
+    Doubt doubt;
     std::optional<OnGrains> grains;  ///< the doubt is made from these
   };
   std::vector<Entry> entries_;

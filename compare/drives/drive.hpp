@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bekker_wong/transient/driving.hpp"
+#include "compare/doubts/doubt.hpp"
 #include "compare/drives/drive_errors.hpp"
 #include "scenario/case.hpp"
 
@@ -27,6 +28,6 @@ AnalyticDrive run_drive(const Case& question, int samples, const bekker_wong::Dr
 
 /// What is doubtful in a drive (compare/doubts/doubts.hpp): its wheel and soil, how deep it sank on its way, what
 /// changes nothing.
-std::vector<std::string> doubts(const AnalyticDrive& part);
+Doubts doubts(const AnalyticDrive& part);
 
 }  // namespace soilbin::compare

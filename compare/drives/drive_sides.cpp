@@ -234,7 +234,7 @@ ModelAnswers answers_of(const ModelChoice& choice, const Drive& drive, const std
   return answers;
 }
 
-std::vector<std::string> doubts_of(Case question, const std::vector<ModelAnswers>& study) {
+Doubts doubts_of(Case question, const std::vector<ModelAnswers>& study) {
   question.study.models.clear(), question.study.conditions.clear();
   for (const ModelAnswers& model : study) {
     question.study.models.push_back(model.choice);
@@ -244,7 +244,7 @@ std::vector<std::string> doubts_of(Case question, const std::vector<ModelAnswers
 }
 
 /// A law of shear that goes back as it came, under a pressure that has grown since: the soil gives more than it took.
-std::string gives_back(const std::vector<bekker_wong::DriveSample>& samples) {
+Doubts gives_back(const std::vector<bekker_wong::DriveSample>& samples) {
   constexpr double hardly = 1e-3;  // of what the soil takes
   double most = 0.0, back = 0.0;
   for (const bekker_wong::DriveSample& sample : samples) {
@@ -252,26 +252,20 @@ std::string gives_back(const std::vector<bekker_wong::DriveSample>& samples) {
     back = std::max(back, most - sample.energy.shear);
   }
   const double taken = samples.empty() ? 0.0 : samples.back().energy.compaction;
-  if (!(back > hardly * taken)) return "";
-  return fmt::format(
-      "the soil's shear gives back {:.3g} J, {:.2g} % of the work that presses the soil: where the tread slides "
-      "forward again its stress goes back as it came, at the pressure that acts by then. No soil does that: what "
-      "brakes the "
-      "wheel is too little by about this share",
-      back, 100 * back / taken);
+  if (!(back > hardly * taken)) return {};
+  return {Doubt{DoubtKind::shear_gives_back, {back, 100 * back / taken}}};
 }
 
 }  // namespace
 
-std::vector<std::string> doubts(const AnalyticDrive& part) {
+Doubts doubts(const AnalyticDrive& part) {
   const ModelChoice wheel{ModelKind::bekker_wong, part.question.drive->effects, ""};
-  std::vector<std::string> all =
-      doubts_of(part.question, {answers_of(wheel, *part.question.drive, part.record.samples)});
-  if (std::string back = gives_back(part.record.samples); !back.empty()) all.push_back(std::move(back));
+  Doubts all = doubts_of(part.question, {answers_of(wheel, *part.question.drive, part.record.samples)});
+  append(all, gives_back(part.record.samples));
   return all;
 }
 
-std::vector<std::string> doubts(const DriveSides& drive) {
+Doubts doubts(const DriveSides& drive) {
   std::vector<ModelAnswers> study;
   for (const DriveSide& side : drive.sides) {
     const bool grains = side.kind == SideKind::grains;

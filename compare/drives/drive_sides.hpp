@@ -89,7 +89,7 @@ DriveSide grain_side(const dem::GrainDriveRecord& record, std::optional<std::uin
 DriveSides side_by_side(const Case& question, std::vector<DriveSide> sides, std::vector<std::string> notes);
 
 /// What is doubtful in both models' drives (compare/doubts/doubts.hpp).
-std::vector<std::string> doubts(const DriveSides& drive);
+Doubts doubts(const DriveSides& drive);
 
 /// Sides of grains, in their order.
 std::vector<const DriveSide*> grain_sides(const DriveSides& drive);

@@ -1,7 +1,5 @@
 #include "compare/experiments/study_results.hpp"
 
-#include <fmt/ranges.h>
-
 #include <filesystem>
 #include <map>
 
@@ -20,13 +18,10 @@ std::vector<SidePoint> points_of(const ModelAnswers& model, const std::vector<Re
   return side_of("", runs, conditions).points;
 }
 
-/// The doubts in runs, in a line; "" where there are none.
-std::string remark_on(const SidePoint& runs) { return fmt::to_string(fmt::join(runs.doubts, "; ")); }
-
 /// How many packings the answer is the mean of, and whether their runs became steady.
 void add_runs(Json& row, const SidePoint& runs) {
   row["packings"] = runs.runs, row["steady"] = runs.unsteady == 0, row["drift"] = finite(runs.drift);
-  if (const std::string remark = remark_on(runs); !remark.empty()) row["remark"] = remark;
+  if (!runs.doubts.empty()) row["remark"] = as_remark(runs.doubts);
 }
 
 /// rows_json, with what the runs of grains say of themselves and what the size of the grains does to their answers.
@@ -46,12 +41,11 @@ Json rows_with_runs(const Case& question, const StudyResults& results) {
   return rows;
 }
 
-/// Doubts in the answers, and in the record that the runs are kept in, where it is there.
-std::vector<std::string> doubts_of_study(const Case& question, const std::vector<ModelAnswers>& study,
-                                         const std::filesystem::path& record) {
-  std::vector<std::string> all = doubts(question, study);
-  if (std::filesystem::exists(record))
-    for (std::string& doubt : step_doubts(read_record(record))) all.push_back(std::move(doubt));
+/// Doubts in the answers, in the record that answered for grains, and in the one that their runs are added to.
+Doubts doubts_of_study(const Case& question, const std::vector<ModelAnswers>& study, const StudyGrains& grains) {
+  const bool from_record = grains.recorded && asks(question.study, ModelKind::dem);
+  Doubts all = doubts(question, study, from_record ? step_doubts(grains.recorded->record) : Doubts());
+  if (std::filesystem::exists(grains.keeping.record)) append(all, step_doubts(read_record(grains.keeping.record)));
   return all;
 }
 
@@ -146,7 +140,7 @@ StudyResults answer_study(const Case& question, const Case& whole, const StudyGr
     model->make_listed(whole.scenario, watch);
     return model;
   });
-  results.doubts = doubts_of_study(question, results.study, grains.keeping.record);
+  results.doubts = doubts_of_study(question, results.study, grains);
   return results;
 }
 
@@ -165,7 +159,7 @@ Remark remarks_about(const Scenario& scenario, const StudyResults& results) {
   for (const ModelAnswers& model : results.study) {
     const std::vector<SidePoint> points = points_of(model, results.runs);
     for (std::size_t i = 0; i < points.size(); ++i)
-      if (points[i].result) of_runs[model.answers[i].at] = remark_on(points[i]);
+      if (points[i].result) of_runs[model.answers[i].at] = as_remark(points[i].doubts);
   }
   return [remark = remarks_about(scenario), of_runs](const ModelChoice& model, const Answer& answer) {
     const std::string of_answer = remark(model, answer);

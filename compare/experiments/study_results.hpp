@@ -36,7 +36,7 @@ struct StudyGrains {
 
 struct StudyResults {
   std::vector<ModelAnswers> study{};
-  std::vector<std::string> doubts{};
+  Doubts doubts{};
   std::optional<dem::StepCriteria> step{};  ///< of grains (step_of)
   std::vector<RecordedRun> runs{};          ///< behind the grains' answers, in the order in which they came
 };

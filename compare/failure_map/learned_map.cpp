@@ -26,7 +26,7 @@ std::vector<AgreementClause> agreements(const FailureQuestion& question, Failure
 }
 
 /// Of the analytic model and the grains at the conditions that were run, with the highest lugs.
-std::vector<std::string> doubts_at_rows(const FailureMapResult& result) {
+Doubts doubts_at_rows(const FailureMapResult& result) {
   Case question;
   std::vector<Eigen::VectorXd> rows;
   for (const FailureRow& row : result.rows.rows) {
@@ -59,14 +59,10 @@ FailureMapResult learn_map(const InclineMap& map, const VirtualTest& grains, Exp
   return result;
 }
 
-std::vector<std::string> doubts_of(const FailureMapResult& result, const VirtualTest& grains,
-                                   const ExperimentStore& store) {
-  std::vector<std::string> all = doubts_at_rows(result);
+Doubts doubts_of(const FailureMapResult& result, const VirtualTest& grains, const ExperimentStore& store) {
+  Doubts all = doubts_at_rows(result);
   if (const std::size_t older = store.of_other_engines(grains); older > 0)
-    all.push_back(
-        fmt::format("{} of the experiments were made by an earlier engine, whose shear springs did not turn with the "
-                    "spin of a pair: this one's answers differ",
-                    older));
+    all.push_back({DoubtKind::earlier_engine, {older}});
   return all;
 }
 

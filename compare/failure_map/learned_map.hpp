@@ -5,6 +5,7 @@
 //   for (const AgreementClause& clause : result.clauses) clause.lower, clause.upper;
 #pragma once
 
+#include "compare/doubts/doubt.hpp"
 #include "compare/failure_map/incline_map.hpp"
 
 namespace soilbin::compare {
@@ -34,8 +35,7 @@ FailureMapResult learn_map(const InclineMap& map, const VirtualTest& grains, Exp
                            const MapLearning& how);
 
 /// Of both models' answers where they were run, and of the runs that the store took from an earlier engine.
-std::vector<std::string> doubts_of(const FailureMapResult& result, const VirtualTest& grains,
-                                   const ExperimentStore& store);
+Doubts doubts_of(const FailureMapResult& result, const VirtualTest& grains, const ExperimentStore& store);
 
 /// Share of the box, by the map, in which |difference| is above the tolerance: over a grid of 9 nodes a factor.
 double share_beyond(const FailureMapResult& result);

@@ -69,7 +69,7 @@ struct Campaign {
   std::map<std::string, DataColumn>
       columns;  ///< of the data file, by quantity; without a file, those that campaign.yaml names
   std::vector<Run> runs;
-  std::vector<IgnoredColumn> ignored{};  ///< they may tell that the rows are no runs (log_signs.hpp)
+  std::vector<IgnoredColumn> ignored{};  ///< they may tell that the rows are no runs (doubts/log_signs.hpp)
 };
 
 inline constexpr const char* campaign_format = "soilbin-campaign/1";

@@ -470,16 +470,15 @@ RunMean mean_with_effective(const std::vector<double>& values) {
   return out;
 }
 
-/// A channel whose halves differ; "" where it is steady.
-std::string unsteadiness(const ChannelView& channel, const std::vector<double>& values) {
+/// A channel whose halves differ; none where it is steady.
+std::optional<UnsteadyChannel> unsteadiness(const ChannelView& channel, const std::vector<double>& values) {
   constexpr double clearly = 4.0, deviations = 1.5;
   const std::vector<double> series = thinned(values).means;
   const double drift = drift_over_error(series);
   const std::span<const double> all(series);
   const double halves = std::abs(mean_of(all.first(all.size() / 2)) - mean_of(all.last(all.size() / 2)));
-  if (!(drift > clearly && halves > least_difference(deviations, all.size()) * sd_of(all))) return "";
-  return fmt::format("not steady: the halves of its {} differ by {} standard errors", channel.title,
-                     drift < 1e4 ? fmt::format("{:.1f}", drift) : "very many");
+  if (!(drift > clearly && halves > least_difference(deviations, all.size()) * sd_of(all))) return {};
+  return UnsteadyChannel{channel.title, drift};
 }
 
 /// A run, or why there is none.
@@ -512,8 +511,7 @@ Made run_of(const TimeLog& log, const Rows& rows) {
       if (about.quantity != channel_views[c].name) continue;
       made.channels[c] = mean_with_effective(values);
       made.run.within_run_sd[c] = made.channels[c]->sd;
-      if (std::string unsteady = unsteadiness(channel_views[c], values); !unsteady.empty())
-        made.doubts.push_back(std::move(unsteady));
+      if (const auto unsteady = unsteadiness(channel_views[c], values)) made.unsteady.push_back(*unsteady);
     }
   }
   if (!has_channel(made.run)) return {std::nullopt, "no channel is measured"};

@@ -73,13 +73,19 @@ struct RunMean {
   double effective = 0.0;  ///< independent samples that would leave the same error: (sd/error)^2, at most all
 };
 
+/// A channel whose halves differ by so many standard errors.
+struct UnsteadyChannel {
+  std::string_view title;
+  double errors = 0.0;
+};
+
 /// A run made of samples.
 struct LoggedRun {
   Run run;
   int first_line = 0, last_line = 0;
   std::size_t samples = 0, cut_before = 0, cut_after = 0;  ///< all; those cut off at both ends as transients
   std::array<std::optional<RunMean>, 4> channels;          ///< in the order of traction_channels
-  std::vector<std::string> doubts;                         ///< "not steady: ..."
+  std::vector<UnsteadyChannel> unsteady;
 };
 
 /// Samples that make no run.

@@ -74,8 +74,6 @@ class RecordedModel : public Model {
   std::vector<const RecordedRun*> runs(const OperatingCondition& at) const;
   /// The mean_of_packings of a condition's runs. Throws NoSolution where the record has none.
   TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override;
-  /// Whether its answers hang on the time step (step_pair.hpp).
-  std::vector<std::string> doubts() const override { return step_doubts(record_); }
 
  private:
   Record record_;

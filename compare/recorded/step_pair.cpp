@@ -66,14 +66,12 @@ std::string in_words(const StepPair& pair) {
   return words + (pair.widened ? "; the errors hold the scatter between bed samples" : "");
 }
 
-std::vector<std::string> step_doubts(const Record& record) {
+Doubts step_doubts(const Record& record) {
   const std::vector<StepPair> pairs = step_pairs(record);
   const auto differing = std::find_if_not(pairs.begin(), pairs.end(), agrees);
-  if (differing != pairs.end()) return {"the grains' answers depend on the time step: " + in_words(*differing)};
+  if (differing != pairs.end()) return {Doubt{DoubtKind::step_matters, {in_words(*differing)}}};
   if (!pairs.empty()) return {};
-  return {
-      "nobody tested whether the grains' answers depend on the time step: the record holds no run at half of it "
-      "(soilbin run STUDY --model dem --record FILE --half-step yes makes one)"};
+  return {Doubt{DoubtKind::step_untested}};
 }
 
 OperatingCondition hardest(const std::vector<OperatingCondition>& conditions) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/doubts/doubt.hpp"
 #include "compare/recorded/record.hpp"
 
 namespace soilbin::compare {
@@ -41,7 +42,7 @@ std::string in_words(const StepPair& pair);
 
 /// The doubt in a record whose step nobody tested, or whose answers hang on it; none where a pair agrees and no other
 /// doesn't.
-std::vector<std::string> step_doubts(const Record& record);
+Doubts step_doubts(const Record& record);
 
 /// A pair that should be alike is not.
 struct TimeStepMatters : std::runtime_error {

@@ -33,11 +33,6 @@ inline std::string json_text(const Json& document) {
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// Adds "warnings" where there are doubts (compare/doubts/doubts.hpp).
-inline void add_warnings(Json& document, const std::vector<std::string>& doubts) {
-  if (!doubts.empty()) document["warnings"] = doubts;
-}
-
 class WriteJson {
  public:
   explicit WriteJson(Json& to) : to_(to) {}

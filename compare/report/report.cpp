@@ -223,10 +223,7 @@ void write_markdown(const std::filesystem::path& folder, const Report& report, c
   md.write();
   if (!report.resolved_case.empty()) md.file("case.yaml", report.resolved_case);
   if (report.csv) md.csv(report.csv_name, report.csv());
-  if (!report.data) return;
-  nlohmann::ordered_json data = report.data();
-  add_warnings(data, about.doubts);
-  md.file(report.data_name + ".json", json_text(data));
+  if (report.data) md.file(report.data_name + ".json", json_text(report.data()));
 }
 
 }  // namespace soilbin::compare

@@ -20,7 +20,7 @@ std::vector<Answer> recorded_grains(const std::string& study, const Case& questi
     answers = recorded_answers(one.record, question.study.conditions, remark);
     const std::string file = one.file.filename().string() + ": ";
     remarks.push_back(file + remark);
-    for (const std::string& doubt : step_doubts(one.record)) remarks.push_back(file + doubt);
+    for (const std::string& doubt : in_words(step_doubts(one.record))) remarks.push_back(file + doubt);
   }
   return answers;
 }

@@ -52,8 +52,7 @@ std::vector<ModelAnswers> run_study(const Case& question, const Progress& progre
     const auto part = [&](std::size_t done, std::size_t) {
       if (progress) progress(i * conditions + done, models.size() * conditions);
     };
-    study.push_back(
-        {question.study.models[i], sweep(*models[i], scenario, question.study.conditions, part), models[i]->doubts()});
+    study.push_back({question.study.models[i], sweep(*models[i], scenario, question.study.conditions, part)});
   }
   return study;
 }

@@ -31,7 +31,6 @@ struct Answer {
 struct ModelAnswers {
   ModelChoice choice;
   std::vector<Answer> answers;
-  std::vector<std::string> doubts{};  ///< Model::doubts
 };
 
 /// Called after every condition with the number done and the number in all. May throw to stop the work.

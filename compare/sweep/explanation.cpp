@@ -9,7 +9,6 @@
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/presumption.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/sweep/declared_tire.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/quantity.hpp"
@@ -241,7 +240,9 @@ std::string pressure_remark(const Scenario& scenario, const OperatingCondition& 
   const Tire tire = tire_at(scenario.tire, at);
   if (!tire.inflation_pressure) return "the wheel is declared rigid";
   const double carried = *declared_ground_pressure(tire);
-  const std::string given = fmt::format("{} give {:.4g} kPa", ground_pressure_in_words(tire), carried / 1000);
+  const std::string given =
+      fmt::format("inflation {:.4g} kPa and carcass {:.4g} kPa give {:.4g} kPa", *tire.inflation_pressure / 1000,
+                  (carried - *tire.inflation_pressure) / 1000, carried / 1000);
   if (bekker_wong::is_flexible(scenario.effects))
     return fmt::format("of the rigid wheel; {}, and the flexible tire presses with {:.4g} kPa at the most", given,
                        most / 1000);

@@ -141,7 +141,7 @@ std::vector<ReportPart> answer_parts(const ModelAnswers& model, const Answer& an
   for (const PrintedValue& one : printed_values(*answer.result))
     values.all.emplace_back(one.name, one.value + (one.unit.empty() ? "" : " " + one.unit));
   parts.push_back({std::move(values)});
-  parts.push_back({Sentences(why_it_pulls_without_slip({model.choice, {answer}, {}}))});
+  parts.push_back({Sentences(why_it_pulls_without_slip({model.choice, {answer}}))});
   return parts;
 }
 
@@ -223,7 +223,7 @@ std::string equations_text(const Explanation& explanation) {
 
 std::vector<ReportPart> explanation_parts(const ModelChoice& choice, const OperatingCondition& at,
                                           const Explanation& explanation) {
-  std::vector<ReportPart> parts = answer_parts({choice, {}, {}}, {at, explanation.result, ""});
+  std::vector<ReportPart> parts = answer_parts({choice, {}}, {at, explanation.result, ""});
   Table forces = forces_table(explanation.result);
   forces.caption = "Budget of forces along the drawbar pull";
   parts.push_back({std::move(forces)});

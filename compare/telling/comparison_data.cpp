@@ -28,7 +28,7 @@ Json side_json(const Side& side, const Case& question) {
     one["runs"] = point.runs;
     for (std::size_t c = 0; c < channel_views.size(); ++c)
       one["scatter"][std::string(channel_views[c].name)] = finite(point.scatter[c]);
-    one["doubts"] = point.doubts;
+    one["doubts"] = in_words(point.doubts);
     if (side.kind == SideKind::grains && point.result)
       one["resolution_error"] =
           to_json(resolution_error(question.scenario, conditions[i], point.result->sinkage.value));
@@ -76,7 +76,7 @@ std::string remarks_of(const Comparison& comparison, const Difference& d) {
   for (const std::size_t s : {d.side, d.reference}) {
     const Side& side = comparison.sides[s];
     const SidePoint& point = side.points[d.condition];
-    std::vector<std::string> remarks = point.doubts;
+    std::vector<std::string> remarks = in_words(point.doubts);
     if (side.kind == SideKind::analytic && s < comparison.choices.size())
       if (std::string one = remark_on(comparison.question.scenario, comparison.choices[s], {at, point.result, ""});
           !one.empty())
@@ -94,7 +94,8 @@ std::optional<LoopOfComparison> ask_loop(const Comparison& comparison, const Loo
   if (reference.kind == SideKind::analytic) return std::nullopt;
   const Campaign campaign = as_campaign(reference, comparison.question);
   LoopOfComparison loop;
-  if (reference.kind == SideKind::measured) loop.mistaken_columns = doubts_before_fit(campaign).columns;
+  if (reference.kind == SideKind::measured)
+    loop.mistaken_columns = in_words(of_mistaken_columns(doubts_before_fit(campaign)));
   loop.answer = run_loop(campaign, options);
   return loop;
 }

@@ -20,7 +20,7 @@ namespace soilbin::compare {
 /// What the loop makes of the best reference of a comparison.
 struct LoopOfComparison {
   LoopAnswer answer;
-  std::vector<std::string> mistaken_columns;  ///< of the measurements that it took (DoubtsBeforeFit::columns)
+  std::vector<std::string> mistaken_columns;  ///< of the measurements that it took (of_mistaken_columns)
 };
 /// Measurements before grains; nothing where all sides are analytic. Throws NoSolution where the loop has no answer.
 std::optional<LoopOfComparison> ask_loop(const Comparison& comparison, const LoopOptions& options);

@@ -156,7 +156,7 @@ Table points_table(const Comparison& comparison, const Side& side) {
                         : "-");
     row.push_back(side.kind == SideKind::analytic ? "-" : std::to_string(point.runs));
     row.push_back(point.scatter[0] > 0.0 ? number(point.scatter[0]) : "-");
-    row.push_back(point.result ? fmt::format("{}", fmt::join(point.doubts, "; ")) : point.error);
+    row.push_back(point.result ? as_remark(point.doubts) : point.error);
     table.add(std::move(row));
   }
   return table;

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <set>
 
 #include "compare/discrepancy/causes.hpp"
 #include "compare/doubts/grain_resolution.hpp"
@@ -170,19 +169,19 @@ std::vector<Clause> doubt_clauses(const Comparison& comparison) {
   std::vector<Clause> clauses;
   for (const Side& side : comparison.sides) {
     std::size_t doubted = 0, with_result = 0;
-    std::set<std::string> doubts;
-    std::string first;
+    std::vector<std::string> told;  // two drifts that round alike are one remark in the table
     for (const SidePoint& point : side.points) {
       with_result += point.result.has_value();
       doubted += point.result && !point.doubts.empty();
-      for (const std::string& doubt : point.doubts)
-        if (doubts.insert(doubt).second && first.empty()) first = doubt;
+      for (std::string& remark : in_words(point.doubts))
+        if (std::ranges::find(told, remark) == told.end()) told.push_back(std::move(remark));
     }
     if (doubted == 0) continue;
-    clauses.push_back({"Limits",
-                       fmt::format("{}: warnings at {} of {} points ({}{}).", side.label, doubted, with_result, first,
-                                   doubts.size() > 1 ? fmt::format("; {} more in the table", doubts.size() - 1) : ""),
-                       {ClauseEvidence::points}});
+    clauses.push_back(
+        {"Limits",
+         fmt::format("{}: warnings at {} of {} points ({}{}).", side.label, doubted, with_result, told.front(),
+                     told.size() > 1 ? fmt::format("; {} more in the table", told.size() - 1) : ""),
+         {ClauseEvidence::points}});
   }
   return clauses;
 }

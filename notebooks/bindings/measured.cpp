@@ -36,7 +36,7 @@ void bind_campaign(py::module_& module) {
           "scenario", [](const Campaign& c) { return compare::scenario_of(c); },
           "Wheel, declared soil and effects, for a model.")
       .def(
-          "doubts", [](const Campaign& c) { return compare::doubts(c); },
+          "doubts", [](const Campaign& c) { return compare::in_words(compare::doubts(c)); },
           "What is possible, but hardly meant: sentences. No verdict of run_loop holds beside a column that looks "
           "mistaken.")
       .def("__repr__", [](const Campaign& c) { return fmt::format("Campaign('{}', {} runs)", c.name, c.runs.size()); });

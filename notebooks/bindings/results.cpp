@@ -2,10 +2,10 @@
 #include <fmt/core.h>
 
 #include "bekker_wong/model.hpp"
+#include "compare/doubts/declared_tire.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answers.hpp"
-#include "compare/sweep/declared_tire.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/answer_report.hpp"
 #include "notebooks/bindings/bindings.hpp"
@@ -134,7 +134,8 @@ void bind_as_asked(py::module_& module) {
       [](const Scenario& scenario, const std::vector<OperatingCondition>& at, bool rigid, bool no_lugs) {
         Case question = question_of(scenario);
         question.study.conditions = at;
-        std::vector<std::string> notes = compare::as_declared(question, {.pressure = rigid, .lugs = no_lugs});
+        std::vector<std::string> notes =
+            compare::in_words(compare::as_declared(question, {.pressure = rigid, .lugs = no_lugs}));
         Scenario asked = scenario;
         asked.tire = question.scenario.tire;
         asked.effects = question.study.models.front().effects;
@@ -147,7 +148,8 @@ void bind_as_asked(py::module_& module) {
       "study_as_asked",
       [](const Case& given, bool rigid, bool no_lugs) {
         Case question = given;
-        std::vector<std::string> notes = compare::as_declared(question, {.pressure = rigid, .lugs = no_lugs});
+        std::vector<std::string> notes =
+            compare::in_words(compare::as_declared(question, {.pressure = rigid, .lugs = no_lugs}));
         return std::pair(question, notes);
       },
       py::arg("case"), py::arg("rigid") = false, py::arg("no_lugs") = false,
@@ -185,14 +187,14 @@ void bind_explanation(py::module_& module) {
   module.def("explain", &compare::explain, py::arg("scenario"), py::arg("at"),
              "The model's equations with their values. Raises InputError and NoSolution as the model does.");
   module.def(
-      "doubts", [](const Case& question) { return compare::doubts(question); }, py::arg("case"),
+      "doubts", [](const Case& question) { return compare::in_words(compare::doubts(question)); }, py::arg("case"),
       "What is possible in a case, but hardly meant: sentences.");
   module.def(
       "doubts_of",
       [](const Scenario& scenario, const std::vector<Answer>& answers) {
         Case question = question_of(scenario);
         for (const Answer& answer : answers) question.study.conditions.push_back(answer.at);
-        return compare::doubts(question, {{question.study.models.front(), answers}});
+        return compare::in_words(compare::doubts(question, {{question.study.models.front(), answers}}));
       },
       py::arg("scenario"), py::arg("answers"),
       "What the command would warn of beside these answers of the analytic model: sentences.");

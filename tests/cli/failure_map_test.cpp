@@ -42,7 +42,7 @@ TEST(SlowFailureMapCommand, LearnsFromTheStoredRuns) {
   EXPECT_THAT(text_of(page), HasSubstr("Cross-validated error of the map"));
   EXPECT_THAT(text_of(page), HasSubstr("the grains are coarse for this wheel"));
   EXPECT_THAT(text_of(page), HasSubstr("<summary>All 24 conditions run</summary>"));
-  EXPECT_THAT(map["warnings"].dump(), HasSubstr("the grains are coarse for this wheel"));
+  EXPECT_THAT(map["warning_kinds"].dump(), HasSubstr("coarse_grains"));
 }
 
 // docs/lab/failure-maps.md on the paper's tire: by load and slip, hardly by slope; and five runs that the map had not

@@ -218,7 +218,7 @@ TEST(Run, ADryRunJudgesWhatTheRunsWouldMeet) {
   const Outcome plan = soilbin(run + "--bed-width 0.19m --dry-run --json");
   EXPECT_EQ(plan.status, 0) << plan.err;
   EXPECT_THAT(plan.err, narrow);
-  EXPECT_THAT(plan.json()["warnings"].dump(), narrow);
+  EXPECT_THAT(plan.json()["warning_kinds"].dump(), HasSubstr("narrow_bed"));
   EXPECT_THAT(soilbin(run + "--bed-width 0.25m --dry-run").err, testing::Not(HasSubstr("its walls hold the soil")));
 }
 

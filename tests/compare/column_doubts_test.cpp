@@ -1,11 +1,11 @@
 // Measured columns that look mistaken: what is told, at which header, and that models which are only wrong raise none.
 #include "compare/doubts/column_doubts.hpp"
 
-#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <functional>
 
+#include "compare/doubt_matchers.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/modelled_campaign.hpp"
 #include "scenario/unit.hpp"
@@ -15,14 +15,12 @@ namespace soilbin::compare {
 namespace {
 
 using test::condition;
+using test::tells;
 using test::wheel_on_sand;
-using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
-using testing::StartsWith;
 
 // Pull and torque of a wheel of 110 mm differ by size, load and pull by both.
 TEST(ColumnDoubts, SwappedColumnsAreToldAtTheirHeader) {
@@ -31,18 +29,17 @@ TEST(ColumnDoubts, SwappedColumnsAreToldAtTheirHeader) {
   swapped.columns["drawbar_pull"] = {"Fx", "N", {"runs.csv", 1, 14}};
   swapped.columns["torque"] = {"My", "N*m", {"runs.csv", 1, 11}};
   for (compare::Run& run : swapped.runs) std::swap(run.drawbar_pull, run.torque);
-  EXPECT_THAT(doubts(swapped),
-              Contains(StartsWith("runs.csv:1:14: the columns 'My' and 'Fx' look swapped: each fits the prediction")));
+  EXPECT_THAT(doubts(swapped), Contains(tells(DoubtKind::columns_swapped, {"runs.csv:1:14: ", "My", "Fx"})));
   Campaign loads = modelled_campaign(0.1);
   std::erase_if(loads.runs, [](const compare::Run& run) { return !(*run.drawbar_pull > 0); });
   ASSERT_GE(loads.runs.size(), 3U);
-  EXPECT_THAT(doubts(loads), Not(Contains(HasSubstr("look swapped"))));
+  EXPECT_THAT(doubts(loads), Not(Contains(tells(DoubtKind::load_swapped))));
   for (compare::Run& run : loads.runs) {
     const double load = run.at.load;
     run.at.load = *run.drawbar_pull;
     run.drawbar_pull = load;
   }
-  EXPECT_THAT(doubts(loads), Contains(HasSubstr("the columns 'load' and 'drawbar_pull' look swapped")));
+  EXPECT_THAT(doubts(loads), Contains(tells(DoubtKind::load_swapped, {"", "load", "drawbar_pull"})));
 }
 
 /// How far a rig's channels are from the declared model's.
@@ -81,27 +78,25 @@ TEST(ColumnDoubts, LoadsInAnotherUnitAreToldAtTheirHeader) {
     Campaign campaign = modelled_campaign();
     campaign.columns["load"] = {"load_N", "N", {"runs.csv", 1, 5}};
     for (compare::Run& run : campaign.runs) run.at.load /= newtons;
-    EXPECT_THAT(
-        doubts(campaign),
-        Contains(StartsWith(fmt::format("runs.csv:1:5: column 'load_N' looks as if it were in {}: with loads", unit))));
+    EXPECT_THAT(doubts(campaign),
+                Contains(tells(DoubtKind::load_in_another_unit, {"runs.csv:1:5: ", "load_N", newtons, "N", unit})));
   }
   Campaign times_ten = rig_campaign();  // of all channels none is called too small
   for (compare::Run& run : times_ten.runs) run.at.load *= 10;
-  EXPECT_THAT(doubts_before_fit(times_ten).columns,
-              ElementsAre(StartsWith("runs.csv:1:1: column 'W' looks 10 times too large: with its values divided")));
+  const auto of_columns = [](const Campaign& campaign) { return of_mistaken_columns(doubts_before_fit(campaign)); };
+  EXPECT_THAT(of_columns(times_ten), ElementsAre(tells(DoubtKind::column_too_large, {"runs.csv:1:1: ", "W", 10})));
   for (const double times : {100.0, 1000.0}) {  // the soil carries no such loads: the model has no answer
     Campaign heavier = rig_campaign();
     for (compare::Run& run : heavier.runs) run.at.load *= times;
-    EXPECT_THAT(doubts_before_fit(heavier).columns,
-                ElementsAre(StartsWith(fmt::format("runs.csv:1:1: column 'W' looks {:g} times too large", times))));
+    EXPECT_THAT(of_columns(heavier), ElementsAre(tells(DoubtKind::column_too_large, {"runs.csv:1:1: ", "W", times})));
   }
   Campaign halved = modelled_campaign();  // no unit
   for (compare::Run& run : halved.runs) run.at.load /= 2;
-  EXPECT_THAT(doubts(halved), Not(Contains(HasSubstr("looks as if"))));
+  EXPECT_THAT(doubts(halved), Not(Contains(tells(DoubtKind::load_in_another_unit))));
 }
 
 /// What is told with each row changed.
-std::vector<std::string> doubts_with(const std::function<void(compare::Run&)>& change) {
+Doubts doubts_with(const std::function<void(compare::Run&)>& change) {
   Campaign campaign = rig_campaign();
   for (compare::Run& run : campaign.runs) change(run);
   return doubts(campaign);
@@ -114,27 +109,28 @@ TEST(ColumnDoubts, NoneWhereTheModelIsOffByAnOffsetOrAFactor) {
 }
 
 TEST(ColumnDoubts, AFlippedSignIsToldWithTheSignThatIsMeant) {
-  const auto flipped = [](const char* place, const char* positive) {
-    return ElementsAre(AllOf(StartsWith(fmt::format("runs.csv:1:{}' looks as if its sign were flipped", place)),
-                             HasSubstr(fmt::format("change the sign in the file if so: positive {}", positive))));
+  const auto flipped = [](const char* place, const char* header, const char* positive) {
+    return ElementsAre(tells(DoubtKind::flipped_sign, {place, header, positive}));
   };
-  EXPECT_THAT(doubts_with([](compare::Run& run) { *run.torque *= -1; }), flipped("11: column 'My", "drives"));
+  EXPECT_THAT(doubts_with([](compare::Run& run) { *run.torque *= -1; }),
+              flipped("runs.csv:1:11: ", "My", "drives the wheel"));
   EXPECT_THAT(doubts_with([](compare::Run& run) { *run.lateral_force *= -1; }),
-              flipped("16: column 'Fy", "points to the left"));
-  EXPECT_THAT(doubts_with([](compare::Run& run) { run.at.slip *= -1; }), flipped("3: column 'Slip", "is a driven"));
+              flipped("runs.csv:1:16: ", "Fy", "points to the left of travel"));
+  EXPECT_THAT(doubts_with([](compare::Run& run) { run.at.slip *= -1; }),
+              flipped("runs.csv:1:3: ", "Slip", "is a driven wheel's slip"));
 }
 
 TEST(ColumnDoubts, APowerOfTenIsToldWithTheDeclaredUnit) {
-  EXPECT_THAT(doubts_with([](compare::Run& run) { *run.torque *= 1000; }),
+  EXPECT_THAT(in_words(doubts_with([](compare::Run& run) { *run.torque *= 1000; })),
               ElementsAre("runs.csv:1:11: column 'My' looks 1000 times too large: with its values divided by 1000 the "
                           "prediction fits far better; look at its unit, 'N m', in its header or under 'columns:' in "
                           "campaign.yaml"));
   EXPECT_THAT(doubts_with([](compare::Run& run) { *run.torque *= 100; }),
-              ElementsAre(HasSubstr("'My' looks 100 times")));
+              ElementsAre(tells(DoubtKind::column_too_large, {"runs.csv:1:11: ", "My", 100})));
   EXPECT_THAT(doubts_with([](compare::Run& run) { *run.lateral_force /= 1000; }),
-              ElementsAre(HasSubstr("'Fy' looks 1000 times too small")));
+              ElementsAre(tells(DoubtKind::column_too_small, {"runs.csv:1:16: ", "Fy", 1000})));
   EXPECT_THAT(doubts_with([](compare::Run& run) { *run.sinkage /= 10; }),
-              ElementsAre(HasSubstr("'z' looks 10 times too small")));
+              ElementsAre(tells(DoubtKind::column_too_small, {"runs.csv:1:14: ", "z", 10})));
   EXPECT_THAT(doubts_with([](compare::Run& run) { *run.sinkage /= 3; }), IsEmpty())
       << "a model may be wrong by as much";
 }
@@ -142,20 +138,19 @@ TEST(ColumnDoubts, APowerOfTenIsToldWithTheDeclaredUnit) {
 // A fit for effects would take such a column for an effect: it gets that doubt by itself too.
 TEST(ColumnDoubts, AreToldByThemselvesBeforeAFit) {
   Campaign campaign = rig_campaign();
-  EXPECT_THAT(doubts_before_fit(campaign).columns, IsEmpty());
+  EXPECT_THAT(of_mistaken_columns(doubts_before_fit(campaign)), IsEmpty());
   for (compare::Run& run : campaign.runs) *run.torque *= 10;
   campaign.runs.push_back(campaign.runs.back());
   campaign.runs.back().csv_line = 99;
-  const DoubtsBeforeFit found = doubts_before_fit(campaign);
-  EXPECT_THAT(found.columns, ElementsAre(HasSubstr("'My' looks 10 times too large")));
-  EXPECT_THAT(found.all, testing::UnorderedElementsAre(found.columns.front(), HasSubstr("counted twice")));
+  const Doubts found = doubts_before_fit(campaign);
+  const auto of_torque = tells(DoubtKind::column_too_large, {"runs.csv:1:11: ", "My", 10});
+  EXPECT_THAT(of_mistaken_columns(found), ElementsAre(of_torque));
+  EXPECT_THAT(found, testing::UnorderedElementsAre(of_torque, tells(DoubtKind::repeated_row)));
 }
 
 TEST(ColumnDoubts, SlipsAsSharesInAColumnOfPercentAreTold) {
-  EXPECT_THAT(
-      doubts_with([](compare::Run& run) { run.at.slip /= 100; }),
-      ElementsAre(AllOf(StartsWith("runs.csv:1:3: column 'Slip' looks as if it held shares where % are declared"),
-                        HasSubstr("look at its unit, '%'"))));
+  EXPECT_THAT(doubts_with([](compare::Run& run) { run.at.slip /= 100; }),
+              ElementsAre(tells(DoubtKind::slip_in_shares, {"runs.csv:1:3: ", "Slip", 100, "%"})));
 }
 
 // The numbers change places, the headings and their units don't: 3 N m stand as 3 mm.
@@ -164,23 +159,23 @@ TEST(ColumnDoubts, EveryTwoChannelsMayBeSwapped) {
                 std::swap(run.torque, run.sinkage);
                 *run.torque *= 1000, *run.sinkage /= 1000;
               }),
-              Contains(StartsWith("runs.csv:1:14: the columns 'My' and 'z' look swapped: each fits the prediction")));
+              Contains(tells(DoubtKind::columns_swapped, {"runs.csv:1:14: ", "My", "z"})));
   EXPECT_THAT(doubts_with([](compare::Run& run) { std::swap(run.torque, run.lateral_force); }),
-              ElementsAre(StartsWith("runs.csv:1:16: the columns 'My' and 'Fy' look swapped")));
+              ElementsAre(tells(DoubtKind::columns_swapped, {"runs.csv:1:16: ", "My", "Fy"})));
 }
 
 // No third column is told to explain the two.
 TEST(ColumnDoubts, EachColumnIsToldOnceWithTheOthersPutRight) {
   EXPECT_THAT(doubts_with([](compare::Run& run) { *run.torque *= -1, *run.sinkage /= 100; }),
-              testing::UnorderedElementsAre(HasSubstr("'My' looks as if its sign"),
-                                            HasSubstr("'z' looks 100 times too small")));
+              testing::UnorderedElementsAre(tells(DoubtKind::flipped_sign, {"runs.csv:1:11: ", "My"}),
+                                            tells(DoubtKind::column_too_small, {"runs.csv:1:14: ", "z", 100})));
 }
 
 // Where no load of ten times less would pull so either, the soil is what it is: too soft for the wheel.
 TEST(ColumnDoubts, ASoilTooSoftForItsWheelIsNoMistakenColumn) {
   Campaign campaign = rig_campaign();
   campaign.soil.k_phi.value /= 1000, campaign.soil.k_c.value /= 1000;
-  EXPECT_THAT(doubts_before_fit(campaign).columns, IsEmpty());
+  EXPECT_THAT(of_mistaken_columns(doubts_before_fit(campaign)), IsEmpty());
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // What a tire declares, in the questions of commands that answer for a tire.
-#include "compare/sweep/declared_tire.hpp"
+#include "compare/doubts/declared_tire.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ std::string why_refused(Case question, const TireLeftOut& left_out) {
 
 TEST(DeclaredTire, IsFlexibleAndHasItsLugs) {
   Case question = heavy_question();
-  EXPECT_THAT(as_declared(question, {}),
+  EXPECT_THAT(in_words(as_declared(question, {})),
               ElementsAre(HasSubstr("flexible where the soil presses with more than its 200 kPa"),
                           HasSubstr("taken with its lugs (effect lug_thrust, form passive_blade); --no-lugs")));
   EXPECT_THAT(effects_of(question), ElementsAre("tire_flexibility:flat_section", "lug_thrust:passive_blade"));
@@ -54,7 +54,7 @@ TEST(DeclaredTire, IsFlexibleAndHasItsLugs) {
 TEST(DeclaredTire, KeepsToWhatIsNamed) {
   Case named = heavy_question(), fitted = heavy_question(), grains = heavy_question(), off = heavy_question();
   named.study.models.front().effects.push_back({"lug_thrust", "side_factors", {{"a", 1.0}}});
-  EXPECT_THAT(as_declared(named, {}), ElementsAre(HasSubstr("flexible")));
+  EXPECT_THAT(in_words(as_declared(named, {})), ElementsAre(HasSubstr("flexible")));
   EXPECT_THAT(effects_of(named), ElementsAre("lug_thrust:side_factors", "tire_flexibility:flat_section"));
   fitted.study.models.front().misfit[0] = 10.0;
   EXPECT_THAT(as_declared(fitted, {}), IsEmpty());
@@ -63,7 +63,8 @@ TEST(DeclaredTire, KeepsToWhatIsNamed) {
   EXPECT_THAT(without_effects(off, {}), IsEmpty());
   Case compared = heavy_question();
   compared.study.models.push_back({ModelKind::bekker_wong, {{"slip_sinkage", "linear", {{"S", 1.0}}}}, "deeper"});
-  EXPECT_THAT(as_declared(compared, {}), ElementsAre(HasSubstr("flexible"))) << "models side by side keep their lugs";
+  EXPECT_THAT(in_words(as_declared(compared, {})), ElementsAre(HasSubstr("flexible")))
+      << "models side by side keep their lugs";
   EXPECT_THAT(effects_of(off), IsEmpty());
 }
 
@@ -73,7 +74,7 @@ TEST(DeclaredTire, IsRigidAndSmoothWhereThatIsAsked) {
   EXPECT_THAT(effects_of(question), IsEmpty());
   EXPECT_FALSE(is_lugged(question.scenario.tire));
   EXPECT_FALSE(question.scenario.tire.inflation_pressure);
-  EXPECT_THAT(as_declared(question, {.pressure = true, .lugs = true}),
+  EXPECT_THAT(in_words(as_declared(question, {.pressure = true, .lugs = true})),
               ElementsAre(HasSubstr("--rigid is ignored"), HasSubstr("--no-lugs is ignored")));
 
   Case named = heavy_question(), grains = heavy_question();
@@ -86,9 +87,10 @@ TEST(DeclaredTire, IsRigidAndSmoothWhereThatIsAsked) {
 TEST(DeclaredTire, TellsWhatASizeDoesNot) {
   Case question = heavy_question();
   question.scenario.tire = *tire_of_size("540/65R30");
-  EXPECT_THAT(as_declared(question, {}), ElementsAre(HasSubstr("tire 540/65R30 is known by its size alone: 540 mm")));
+  EXPECT_THAT(in_words(as_declared(question, {})),
+              ElementsAre(HasSubstr("tire 540/65R30 is known by its size alone: 540 mm")));
   question.scenario.tire.sources["radius"] = "measured";
-  EXPECT_THAT(as_declared(question, {}), IsEmpty());
+  EXPECT_THAT(in_words(as_declared(question, {})), IsEmpty());
 }
 
 }  // namespace

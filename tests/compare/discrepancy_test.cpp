@@ -7,6 +7,7 @@
 
 #include "compare/comparison_fixture.hpp"
 #include "compare/discrepancy/causes.hpp"
+#include "compare/doubt_matchers.hpp"
 #include "compare/telling/comparison_sheets.hpp"
 #include "compare/telling/comparison_tables.hpp"
 #include "compare/telling/comparison_words.hpp"
@@ -84,8 +85,8 @@ TEST(GrainRuns, OnePackingAndDriftAreToldAsDoubts) {
   runs[0].steady = false;
   runs[0].drift = 3.7;
   const SidePoint point = side_of("dem", runs, {runs[0].answer.at}).points[0];
-  EXPECT_THAT(point.doubts, Contains(HasSubstr("scatter between bed samples is unknown")));
-  EXPECT_THAT(point.doubts, Contains(HasSubstr("1 of 1 run not steady (drift up to 3.7")));
+  EXPECT_TRUE(tell_of(point.doubts, DoubtKind::one_bed_sample));
+  EXPECT_THAT(point.doubts, Contains(test::tells(DoubtKind::unsteady_runs, {1, 1, 3.7})));
 }
 
 class Pair : public testing::Test {
@@ -167,14 +168,14 @@ TEST_F(Pair, ABedOfAnotherDensityThanTheSoilsValuesIsSaid) {
   std::vector<RecordedRun> runs = grain_runs(base, {0}, 1.0);
   const auto at = [&](double density) {
     for (RecordedRun& run : runs) run.bed.bulk = density;
-    return bed_density_doubt(soil, runs);
+    return bed_density_doubts(soil, runs);
   };
-  EXPECT_EQ(at(1590), "");
-  EXPECT_THAT(at(1450), HasSubstr("bed is looser (1450 kg/m^3)"));
-  EXPECT_THAT(at(1700), HasSubstr("bed is denser (1700 kg/m^3)"));
-  EXPECT_EQ(at(0), "") << "a record that does not tell it";
+  EXPECT_THAT(at(1590), IsEmpty());
+  EXPECT_THAT(at(1450), Contains(test::tells(DoubtKind::bed_density, {"looser", 1450, 1600})));
+  EXPECT_THAT(at(1700), Contains(test::tells(DoubtKind::bed_density, {"denser", 1700, 1600})));
+  EXPECT_THAT(at(0), IsEmpty()) << "a record that does not tell it";
   soil.semi_empirical->density.reset();
-  EXPECT_EQ(at(1450), "");
+  EXPECT_THAT(at(1450), IsEmpty());
 }
 
 // One row a condition: the grains' own value, then what the model adds to it, with a star where that is significant.
@@ -366,8 +367,8 @@ TEST_F(Pair, PartsThatLeaveMoreThanTheirBoundAreADoubtOfThePoint) {
   runs[2].answer.result->budget_rest = {-30, 12};
   runs[3].answer.result->budget_rest = {11, 12};
   const Side side = side_of("dem", runs, question.study.conditions);
-  EXPECT_THAT(side.points[2].doubts, Contains(HasSubstr("leave -30 N unexplained (chance: at most 12 N)")));
-  EXPECT_THAT(side.points[3].doubts, Not(Contains(HasSubstr("unexplained"))));
+  EXPECT_THAT(side.points[2].doubts, Contains(test::tells(DoubtKind::budget_rest, {-30, 12})));
+  EXPECT_FALSE(tell_of(side.points[3].doubts, DoubtKind::budget_rest));
   // It is told beside the parts, and no part: each side's parts and the rest are its pull.
   const Comparison comparison = compare_sides(question, {base.choice}, {side_of(base), side});
   const Table table = budget_table(comparison, 2);

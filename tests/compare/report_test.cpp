@@ -341,7 +341,8 @@ TEST(Report, MarkdownHasFiguresAndDataBesideIt) {
               AllOf(HasSubstr("# Pull\n"), HasSubstr("- **Deep.** it sinks."), HasSubstr("| 20 | 15.2 |")));
   EXPECT_THAT(text("figure-1.svg"), HasSubstr("<svg"));
   EXPECT_THAT(text("data.csv"), EndsWith("slip;pull\n0,2;15,2\n"));
-  EXPECT_EQ(Json::parse(text("data.json"))["warnings"][0], "coarse grains");
+  EXPECT_THAT(text("report.md"), HasSubstr("## Warnings\n\n- coarse grains\n"));
+  EXPECT_EQ(Json::parse(text("data.json")), small_report().data());
   fs::remove_all(folder);
 }
 

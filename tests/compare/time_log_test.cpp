@@ -10,9 +10,10 @@
 #include <random>
 
 #include "bekker_wong/effect_vocabulary.hpp"
+#include "compare/doubt_matchers.hpp"
 #include "compare/doubts/doubts.hpp"
+#include "compare/doubts/log_signs.hpp"
 #include "compare/measured/csv.hpp"
-#include "compare/measured/log_signs.hpp"
 #include "compare/measured/stretches.hpp"
 #include "scenario/library.hpp"
 #include "tests/compare/modelled_campaign.hpp"
@@ -78,9 +79,10 @@ Campaign logged_as_runs(unsigned seed) {
 TEST(RowsOfALog, AreToldFromRuns) {
   for (const unsigned seed : {1U, 2U}) {
     const Campaign campaign = logged_as_runs(seed);
-    EXPECT_THAT(doubts(campaign), Contains(AllOf(HasSubstr("samples of a time log"), HasSubstr("30 rows on end"),
-                                                 HasSubstr("soilbin runs 'runs.csv'"))));
-    EXPECT_THAT(doubts_before_fit(campaign).columns, Contains(HasSubstr("samples of a time log")));
+    EXPECT_THAT(in_words(doubts(campaign)),
+                Contains(AllOf(HasSubstr("samples of a time log"), HasSubstr("30 rows on end are at one setpoint"),
+                               HasSubstr("soilbin runs 'runs.csv'"))));
+    EXPECT_TRUE(tell_of(of_mistaken_columns(doubts_before_fit(campaign)), DoubtKind::rows_are_samples));
     const LogRuns made = runs_of(write_runs(campaign.runs));
     ASSERT_EQ(made.runs.size(), 12U);
     EXPECT_THAT(made.left_out, IsEmpty());
@@ -105,7 +107,8 @@ TEST(RowsOfALog, AreToldByAClockThatIsLeftAside) {
   IgnoredColumn clock{"time_s", {}, {}};
   for (int i = 0; i < 24; ++i) clock.texts.push_back(std::to_string(0.1 * (i % 12)));
   campaign.ignored = {clock};
-  EXPECT_THAT(signs_of_a_log(campaign), ElementsAre(HasSubstr("column 'time_s' is a clock with even steps")));
+  EXPECT_THAT(signs_of_a_log(campaign),
+              ElementsAre(test::tells(DoubtKind::rows_are_samples, {campaign.data, "time_s", "", "", ""})));
   campaign.ignored[0].header = "operator";
   EXPECT_THAT(signs_of_a_log(campaign), IsEmpty());
   campaign.ignored[0] = {"time", {}, {"09:10", "09:55", "10:20"}};
@@ -117,7 +120,8 @@ TEST(RowsOfALog, AreToldByTheNumberOfTheirRunAndByTheirWheels) {
   for (std::size_t i = 0; i < campaign.runs.size(); ++i) campaign.runs[i].at.run = static_cast<int>(i / 4);
   campaign.ignored = {{"wheel", {}, {"A", "A", "B"}}};
   EXPECT_THAT(signs_of_a_log(campaign),
-              ElementsAre(HasSubstr("4 rows on end have the number of one run"), HasSubstr("names 2 wheels (A, B)")));
+              ElementsAre(test::tells(DoubtKind::rows_are_samples, {campaign.data, "", 4, "", ""}),
+                          test::tells(DoubtKind::several_wheels, {"wheel", 2})));
 }
 
 // Re-runs, sorted, shuffled or in fine steps of slip, are runs: each on a bed of its own.
@@ -151,7 +155,8 @@ TEST(RowsOfALog, OfALoggedSweepAreSmooth) {
     campaign.runs.back().at.slip = 0.0005 * i, campaign.runs.back().at.run.reset();
     *campaign.runs.back().drawbar_pull += 0.01 * i;
   }
-  EXPECT_THAT(signs_of_a_log(campaign), ElementsAre(HasSubstr("slip and load hardly change from row to row")));
+  EXPECT_THAT(signs_of_a_log(campaign),
+              ElementsAre(test::tells(DoubtKind::rows_are_samples, {campaign.data, "", "", "", 1200})));
 }
 
 constexpr const char* unknown_clock = "time_s,load_N,slip,sinkage_m\n0.1,80,0.2,0.01\n";
@@ -267,7 +272,7 @@ TEST(TimeLogs, SayWhichRunsAreNotSteady) {
   SlowNoise noise(7);
   std::string csv = "run,load_N,slip,drawbar_pull_N,sinkage_mm\n";
   for (int i = 0; i < 200; ++i) csv += fmt::format("1,80,0.2,{:.3f},{:.3f}\n", 10 + 0.1 * i, 5 + noise.white());
-  EXPECT_THAT(runs_of(csv).runs.at(0).doubts, Contains(StartsWith("not steady: the halves of its drawbar pull")));
+  EXPECT_EQ(runs_of(csv).runs.at(0).unsteady.at(0).title, "drawbar pull");
 }
 
 TEST(TimeLogs, OfSeveralWheelsAreReadOneByOne) {

@@ -1,6 +1,4 @@
-#include "compare/measured/log_signs.hpp"
-
-#include <fmt/core.h>
+#include "compare/doubts/log_signs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -137,27 +135,41 @@ bool hardly_changes(const std::vector<Run>& runs) {
          noise_in_steps(loads) <= hardly * setpoint_tolerance("load", "N", upper_median(loads));
 }
 
-/// Why rows look like samples; "" where they don't.
-std::string why_samples(const Campaign& campaign) {
+std::string file_of(const Campaign& campaign) {
+  return campaign.columns.empty() || campaign.columns.begin()->second.at.file.empty()
+             ? campaign.data
+             : campaign.columns.begin()->second.at.file;
+}
+
+/// What makes rows look like samples, one of these alone; the last two may stand together with a smooth channel.
+struct SampleSigns {
+  Said clock = "", of_one_number = "", at_one_setpoint = "", hardly_changing = "";
+};
+
+Doubts samples(const Campaign& campaign, const SampleSigns& signs, const RowCorrelation& smooth = {}) {
+  const bool smoothly = smooth.value > 0.0;
+  return {Doubt{DoubtKind::rows_are_samples,
+                {file_of(campaign), signs.clock, signs.of_one_number, signs.at_one_setpoint, signs.hardly_changing,
+                 smoothly ? smooth.channel : "", smoothly ? Said(smooth.value) : Said("")}}};
+}
+
+/// One on rows that look like samples, or none.
+Doubts doubts_of_samples(const Campaign& campaign) {
   const std::vector<Run>& runs = campaign.runs;
   for (const IgnoredColumn& column : campaign.ignored)
     if (names_a_clock(column.header) && goes_on_evenly(column.texts))
-      return fmt::format("column '{}' is a clock with even steps", clipped(column.header));
-  if (runs.size() < 2) return "";
+      return samples(campaign, {.clock = clipped(column.header)});
+  if (runs.size() < 2) return {};
   const double rows = static_cast<double>(runs.size());
   std::size_t numbers = 1;
   for (std::size_t i = 1; i < runs.size(); ++i) numbers += !runs[i].at.run || runs[i].at.run != runs[i - 1].at.run;
   constexpr double of_one_number = 3.0;
   if (rows >= of_one_number * static_cast<double>(numbers))
-    return fmt::format("{:.3g} rows on end have the number of one run", rows / static_cast<double>(numbers));
+    return samples(campaign, {.of_one_number = rows / static_cast<double>(numbers)});
 
   constexpr std::size_t long_stretch = 10, short_stretch = 4, few_rows = 40, of_a_ramp = 20, rows_of_a_ramp = 100;
   const std::vector<std::size_t> starts = starts_at_one_setpoint(runs);
   const RowCorrelation smooth = smoothness(runs, starts);
-  const std::string smoothly = smooth.value > 0.0
-                                   ? fmt::format(", and follow each other smoothly (autocorrelation of the {} {:.2f})",
-                                                 smooth.channel, smooth.value)
-                                   : std::string();
   std::size_t in_long = 0, longs = 0;
   for (std::size_t k = 0; k < starts.size(); ++k) {
     const std::size_t size = (k + 1 < starts.size() ? starts[k + 1] : runs.size()) - starts[k];
@@ -165,36 +177,25 @@ std::string why_samples(const Campaign& campaign) {
     if (size >= long_stretch && holds_slip(stretch) && !is_ramp(stretch)) in_long += size, ++longs;
   }
   if (2 * in_long >= runs.size() && (longs > 1 || smooth.value > 0.0))
-    return fmt::format("{} rows on end are at one setpoint{}", in_long / longs, smoothly);
+    return samples(campaign, {.at_one_setpoint = in_long / longs}, smooth);
   const std::size_t usual = runs.size() / starts.size();
   if (usual >= short_stretch && runs.size() >= few_rows && smooth.value > 0.0)
-    return fmt::format("{} rows on end are at one setpoint{}", usual, smoothly);
+    return samples(campaign, {.at_one_setpoint = usual}, smooth);
   if (usual >= of_a_ramp && runs.size() >= rows_of_a_ramp && hardly_changes(runs))
-    return fmt::format("slip and load hardly change from row to row over {} rows{}", runs.size(), smoothly);
-  return "";
-}
-
-std::string file_of(const Campaign& campaign) {
-  return campaign.columns.empty() || campaign.columns.begin()->second.at.file.empty()
-             ? campaign.data
-             : campaign.columns.begin()->second.at.file;
+    return samples(campaign, {.hardly_changing = runs.size()}, smooth);
+  return {};
 }
 
 }  // namespace
 
-std::vector<std::string> signs_of_a_log(const Campaign& campaign) {
-  std::vector<std::string> signs;
-  if (const std::string why = why_samples(campaign); !why.empty())
-    signs.push_back(fmt::format(
-        "the rows look like samples of a time log, not like runs: {}. Samples of one run share its bed; counted as "
-        "runs they make errors too small and can look like an effect. One row a run: soilbin runs '{}'",
-        why, file_of(campaign)));
+Doubts signs_of_a_log(const Campaign& campaign) {
+  Doubts signs = doubts_of_samples(campaign);
   for (const IgnoredColumn& column : campaign.ignored) {
     if (!names_the_wheel(column.header)) continue;
     const std::set<std::string> wheels(column.texts.begin(), column.texts.end());
     if (wheels.size() < 2) continue;
-    signs.push_back(fmt::format("column '{}' names {} wheels ({}): a campaign is of one wheel, so make one of each",
-                                clipped(column.header), wheels.size(), listed({wheels.begin(), wheels.end()})));
+    signs.push_back(
+        {DoubtKind::several_wheels, {clipped(column.header), wheels.size(), listed({wheels.begin(), wheels.end()})}});
   }
   return signs;
 }

@@ -1,6 +1,4 @@
-#include "compare/sweep/declared_tire.hpp"
-
-#include <fmt/core.h>
+#include "compare/doubts/declared_tire.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,15 +17,14 @@ bool names(const Case& question, const char* effect) {
   });
 }
 
-/// "270 kPa" or "100 .. 300 kPa": inflation and carcass together.
-std::string pressures_in_words(const Tire& tire, const std::vector<OperatingCondition>& conditions) {
+/// The lowest of inflation and carcass together over the conditions [kPa], and the highest where that is another.
+std::vector<Said> pressures_of(const Tire& tire, const std::vector<OperatingCondition>& conditions) {
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
   for (const OperatingCondition& at : conditions) {
     const double pressure = *declared_ground_pressure(tire_at(tire, at));
     least = std::min(least, pressure), most = std::max(most, pressure);
   }
-  return least == most ? fmt::format("{:.4g} kPa", least / 1000)
-                       : fmt::format("{:.4g} .. {:.4g} kPa", least / 1000, most / 1000);
+  return {least / 1000, least == most ? Said("") : Said(most / 1000)};
 }
 
 /// Something that a tire may declare, the effect and the form that make it felt, and what to tell of it.
@@ -35,7 +32,8 @@ struct DeclaredByTire {
   const char* effect;
   const char* form;
   bool (*is_there)(const Case&);
-  std::string (*words)(const Case&);
+  DoubtKind kind;
+  std::vector<Said> (*says)(const Case&);  ///< before effect and form
 };
 
 constexpr std::array<DeclaredByTire, 2> declared_by_tires = {{
@@ -45,18 +43,11 @@ constexpr std::array<DeclaredByTire, 2> declared_by_tires = {{
          return declared_ground_pressure(tire_at(question.scenario.tire, at)).value_or(0.0) > 0.0;
        });
      },
-     [](const Case& question) {
-       return fmt::format(
-           "the tire is taken as flexible where the soil presses with more than its {} of inflation and "
-           "carcass (effect tire_flexibility, form flat_section); --rigid for the rigid wheel",
-           pressures_in_words(question.scenario.tire, question.study.conditions));
-     }},
+     DoubtKind::taken_as_flexible,
+     [](const Case& question) { return pressures_of(question.scenario.tire, question.study.conditions); }},
     {"lug_thrust", "passive_blade",
      [](const Case& question) { return is_lugged(question.scenario.tire) && question.study.models.size() == 1; },
-     [](const Case&) {
-       return std::string(
-           "the tire is taken with its lugs (effect lug_thrust, form passive_blade); --no-lugs for the smooth wheel");
-     }},
+     DoubtKind::taken_with_lugs, [](const Case&) { return std::vector<Said>(); }},
 }};
 
 /// The effect with its defaults, in the analytic models that no fit made; whether there is any.
@@ -77,23 +68,23 @@ bool add_effect(const DeclaredByTire& declared, std::vector<ModelChoice>& models
   return any;
 }
 
-void make_rigid(Case& question, std::vector<std::string>& notes) {
+void make_rigid(Case& question, Doubts& notes) {
   if (names(question, "tire_flexibility"))
     throw InputError(
         "--rigid: a model of the question has the effect tire_flexibility\n  hint: leave one of the two out");
   if (std::ranges::any_of(question.study.conditions, [](const auto& at) { return at.inflation_pressure.has_value(); }))
     throw InputError("--rigid: a rigid wheel has no inflation pressure, and a condition tells one");
   std::optional<double>& pressure = question.scenario.tire.inflation_pressure;
-  if (!pressure) notes.emplace_back("--rigid is ignored: the tire declares no inflation pressure and is rigid");
+  if (!pressure) notes.push_back({DoubtKind::rigid_already});
   pressure.reset();
 }
 
-void make_smooth(Case& question, std::vector<std::string>& notes) {
+void make_smooth(Case& question, Doubts& notes) {
   if (names(question, "lug_thrust"))
     throw InputError("--no-lugs: a model of the question has the effect lug_thrust\n  hint: leave one of the two out");
   Tire& tire = question.scenario.tire;
   if (!is_lugged(tire)) {
-    notes.emplace_back("--no-lugs is ignored: the tire declares no lugs and is smooth");
+    notes.push_back({DoubtKind::smooth_already});
     return;
   }
   if (asks(question.study, ModelKind::dem))
@@ -103,34 +94,33 @@ void make_smooth(Case& question, std::vector<std::string>& notes) {
   std::erase_if(tire.sources, [](const auto& source) { return source.first.starts_with("lugs"); });
 }
 
-/// A tire that nobody described, only named by its size; "" where radius or width are given beside it.
-void tell_of_size(const Tire& tire, std::vector<std::string>& notes) {
+/// A tire that nobody described, only named by its size; not where radius or width are given beside it.
+void tell_of_size(const Tire& tire, Doubts& notes) {
   if (tire.source.starts_with(by_size_alone) && !tire.sources.contains("radius") && !tire.sources.contains("width"))
-    notes.push_back(fmt::format("tire {} is known {}", tire.name, tire.source));
+    notes.push_back({DoubtKind::known_by_size, {tire.name, tire.source}});
 }
 
 }  // namespace
 
-std::vector<std::string> as_declared(Case& question, const TireLeftOut& left_out) {
-  std::vector<std::string> notes = without_effects(question, left_out);
+Doubts as_declared(Case& question, const TireLeftOut& left_out) {
+  Doubts notes = without_effects(question, left_out);
   if (!question.scenario.soil.semi_empirical || question.study.conditions.empty()) return notes;
   for (const DeclaredByTire& declared : declared_by_tires)
-    if (declared.is_there(question) && !names(question, declared.effect) && add_effect(declared, question.study.models))
-      notes.push_back(declared.words(question));
+    if (declared.is_there(question) && !names(question, declared.effect) &&
+        add_effect(declared, question.study.models)) {
+      Doubt note{declared.kind, declared.says(question)};
+      note.says.emplace_back(declared.effect), note.says.emplace_back(declared.form);
+      notes.push_back(std::move(note));
+    }
   return notes;
 }
 
-std::vector<std::string> without_effects(Case& question, const TireLeftOut& left_out) {
-  std::vector<std::string> notes;
+Doubts without_effects(Case& question, const TireLeftOut& left_out) {
+  Doubts notes;
   tell_of_size(question.scenario.tire, notes);
   if (left_out.pressure) make_rigid(question, notes);
   if (left_out.lugs) make_smooth(question, notes);
   return notes;
-}
-
-std::string ground_pressure_in_words(const Tire& tire) {
-  const double inflation = *tire.inflation_pressure, carcass = *declared_ground_pressure(tire) - inflation;
-  return fmt::format("inflation {:.4g} kPa and carcass {:.4g} kPa", inflation / 1000, carcass / 1000);
 }
 
 }  // namespace soilbin::compare

@@ -3,13 +3,11 @@
 // models keep to their declared effects.
 //
 //   Case question = ...;                                        // a tire of 270 kPa with lugs, no effects
-//   for (const std::string& note : as_declared(question, {}))   // now with tire_flexibility and lug_thrust
+//   for (const std::string& note : in_words(as_declared(question, {})))   // now with tire_flexibility and lug_thrust
 //     fmt::print(stderr, "{}\n", note);
 #pragma once
 
-#include <string>
-#include <vector>
-
+#include "compare/doubts/doubt.hpp"
 #include "scenario/case.hpp"
 
 namespace soilbin::compare {
@@ -29,15 +27,12 @@ struct TireLeftOut {
 ///   lugs add in grains which resolve them (docs/lab/grain-size.md). A study that sets models side by side keeps to
 ///   them
 /// Nothing of an effect that a model names, nor in a model that comes from a fit. What is left out is taken off the
-/// tire. Gives a sentence for each thing added or left out for nothing, and one for a tire that is known by its size
+/// tire. Gives a doubt for each thing added or left out for nothing, and one for a tire that is known by its size
 /// alone. Throws InputError where a model names the effect of what is to be left out, where a condition tells the
 /// pressure, and where grains are asked, which meet the tire with its lugs.
-std::vector<std::string> as_declared(Case& question, const TireLeftOut& left_out);
+Doubts as_declared(Case& question, const TireLeftOut& left_out);
 
 /// The same without adding any effect, where every effect was switched off by name.
-std::vector<std::string> without_effects(Case& question, const TireLeftOut& left_out);
-
-/// "inflation 150 kPa and carcass 20 kPa", of a tire that declares an inflation pressure.
-std::string ground_pressure_in_words(const Tire& tire);
+Doubts without_effects(Case& question, const TireLeftOut& left_out);
 
 }  // namespace soilbin::compare
