@@ -97,9 +97,6 @@ class Grains : public Model {
   }
 
   std::string name() const override { return recorded_ ? recorded_->name() : dem::model_name(grains_.settings); }
-  std::vector<std::string> doubts() const override {
-    return recorded_ ? recorded_->doubts() : std::vector<std::string>{};
-  }
   TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override {
     if (recorded_) {
       for (const RecordedRun* run : recorded_->runs(at)) runs_.push_back(*run);
