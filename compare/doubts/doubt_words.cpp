@@ -97,6 +97,10 @@ constexpr DoubtSentence sentences[] = {
       "soil"),
     D(rigid_already, "--rigid is ignored: the tire declares no inflation pressure and is rigid"),
     D(smooth_already, "--no-lugs is ignored: the tire declares no lugs and is smooth"),
+    D(ignored_by_rft, "rft ignores {}"),
+    D(rft_values_estimated, "rft: xi_n = {:.3g} ± {:.2g} kN/m^3 and surface friction {:.2g} ± {:.1g} are estimated from "
+      "the soil's density and friction angle: declare 'resistive_force', from plates"),
+    D(rft_without_cohesion, "rft has no cohesion, and this soil has {:.3g} kPa: it sinks too deep and pulls too little"),
     D(presumed, "{}"),
     D(density_assumed, "the soil declares no density: {:g} kg/m^3 is assumed, and the answers depend on it"),
     D(exact_carcass, "effect {0} reads the carcass pressure, and {1:.4g} kPa count as exact: what that is off is "
