@@ -33,6 +33,26 @@ std::vector<Element> elements_of(const dem::TriangleMesh& mesh, const Tire& tire
   return all;
 }
 
+/// Triangles of a cell are no mirror images, a tire's two halves are: those to the left and their images.
+std::vector<Element> mirrored(const std::vector<Element>& all, const Tire& tire) {
+  const double middle = 1e-9 * tire.width;
+  std::vector<Element> both;
+  both.reserve(all.size());
+  for (const Element& e : all) {
+    if (e.place.y < -middle) continue;
+    both.push_back(e);
+    if (e.place.y <= middle) continue;
+    Element image = e;
+    image.place.y = -e.place.y, image.normal.y = -e.normal.y;
+    both.push_back(image);
+  }
+  return both;
+}
+
+bool has_alike_halves(const Tire& tire) {
+  return !is_lugged(tire) || tire.lugs.pattern == LugPattern::straight || tire.lugs.pattern == LugPattern::chevron;
+}
+
 double pitch_of(const Tire& tire) {
   if (!is_lugged(tire)) return 0.0;
   return 2 * std::numbers::pi / tire.lugs.count.value_or(1);
@@ -42,7 +62,8 @@ double pitch_of(const Tire& tire) {
 
 TreadElements tread_elements(const Tire& tire, double finer) {
   const dem::TireMeshing meshing{.edge = finer * edge_per_radius * tire.radius};
-  return {elements_of(dem::tire_surface(tire, meshing), tire), pitch_of(tire)};
+  std::vector<Element> all = elements_of(dem::tire_surface(tire, meshing), tire);
+  return {has_alike_halves(tire) ? mirrored(all, tire) : all, pitch_of(tire)};
 }
 
 TreadElements drawn_elements(const std::string& file, const Tire& tire) {

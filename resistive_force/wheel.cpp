@@ -19,12 +19,11 @@ constexpr int turns_of_a_pitch = 8;    // over which a lugged wheel's forces are
 constexpr int steps_down = 64;         // in which the first balance is looked for
 constexpr int precise_bits = 46;       // of the balanced depth
 
-/// A wheel's motion over a plane, and gravity: in the frame of travel.
+/// A wheel's motion over a plane, in the frame of travel: x along it, y left, z out of the ground.
 struct Motion {
   Vec3 axle, heading;    ///< to the left; in the wheel's plane, along the ground
   Vec3 velocity;         ///< of the axle, in units in which the tread base turns at 1
   double turning = 1.0;  ///< speed of the tread base about the axle: 1, locked 0
-  Vec3 up;               ///< against gravity
 };
 
 Motion motion_of(const OperatingCondition& at) {
@@ -35,8 +34,6 @@ Motion motion_of(const OperatingCondition& at) {
   const bool locked = slip <= -1.0;
   m.turning = locked ? 0.0 : 1.0;
   m.velocity = {locked ? 1.0 : speed_ratio(slip), 0, 0};
-  const double a = at.longitudinal_incline, b = at.transverse_incline;
-  m.up = {std::sin(a), std::cos(a) * std::sin(b), std::cos(a) * std::cos(b)};
   return m;
 }
 
@@ -58,7 +55,7 @@ PushedWheel::PushedWheel(const TreadElements& elements, const Tire& tire, const 
     : tire_(tire), at_(at) {
   const Motion m = motion_of(at);
   axle_ = m.axle;
-  per_depth_ = 1.0 / m.up.z;
+  gravity_share_ = std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
   const int turns = elements.pitch > 0.0 ? turns_of_a_pitch : 1;
   turns_ = turns;
   contacts_.reserve(elements.all.size() * static_cast<std::size_t>(turns) / 2);
@@ -73,7 +70,7 @@ PushedWheel::PushedWheel(const TreadElements& elements, const Tire& tire, const 
       if (speed < 1e-12) continue;
       const Vec3 normal = in_travel(e.normal, turn, m);
       if (dot(normal, velocity) <= 0.0) continue;
-      const Response r = response(normal, velocity / speed, m.up);
+      const Response r = response(normal, velocity / speed, {0, 0, 1});
       contacts_.push_back({place, e.area * r.normal, e.area * r.tangential, level, e.part});
     }
   }
@@ -82,7 +79,7 @@ PushedWheel::PushedWheel(const TreadElements& elements, const Tire& tire, const 
 std::vector<Vec3> PushedWheel::weighed(const Medium& medium) const {
   std::vector<Vec3> all;
   all.reserve(contacts_.size());
-  const double scale = per_depth_ / turns_;
+  const double scale = gravity_share_ / turns_;
   for (const Contact& c : contacts_) all.push_back(scale * traction({c.normal, c.tangential}, medium.surface_friction));
   return all;
 }
@@ -121,7 +118,7 @@ SoilForces PushedWheel::forces(const Medium& medium, double sinkage) const {
 
 Balance PushedWheel::balance(const Medium& medium) const {
   const std::vector<Vec3> by_depth = weighed(medium);
-  const double load = at_.load * std::cos(at_.longitudinal_incline) * std::cos(at_.transverse_incline);
+  const double load = at_.load * gravity_share_;
   const auto excess = [&](double sinkage) {
     double vertical = 0.0;
     for (std::size_t i = 0; i < contacts_.size(); ++i)
@@ -163,7 +160,7 @@ Balance PushedWheel::balance(const Medium& medium) const {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const double normal = length(contacts_[i].normal), tangential = length(contacts_[i].tangential);
     if (tangential > medium.surface_friction * normal)
-      by_friction[i] = (per_depth_ / turns_ * normal / tangential) * contacts_[i].tangential;
+      by_friction[i] = (gravity_share_ / turns_ * normal / tangential) * contacts_[i].tangential;
   }
   b.by_surface_friction = balanced(scaled(medium.xi_n, sums(by_friction, b.sinkage).forces));
   return b;

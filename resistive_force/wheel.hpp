@@ -51,8 +51,10 @@ struct StripStress {
 /// does not change with depth; so the depth is found last, and cheaply.
 class PushedWheel {
  public:
-  /// Slopes turn gravity against the wheel and the surface: elements stand in the frame of gravity, and their depth is
-  /// measured along it. Throws InputError for an impossible condition.
+  /// On a slope the theory's frame turns with the surface, whose depth is then measured square to it, and the stresses
+  /// are those of gravity's part in that direction, xi_n cos(alpha) cos(beta_t): our choice, as the published theory
+  /// has level ground. That soil gives way more easily downhill is not in it. Throws InputError for an impossible
+  /// condition.
   PushedWheel(const TreadElements& elements, const Tire& tire, const OperatingCondition& at);
 
   /// The depth at which the soil carries the load that presses on the surface, W cos(alpha) cos(beta_t): the shallowest
@@ -85,9 +87,9 @@ class PushedWheel {
   std::vector<Contact> contacts_;
   Tire tire_;
   OperatingCondition at_;
-  Vec3 axle_;               ///< to the left
-  double per_depth_ = 1.0;  ///< depth along gravity over depth square to the surface [-]
-  double turns_ = 1.0;      ///< of the lugs, that forces are the mean of
+  Vec3 axle_;                   ///< to the left
+  double gravity_share_ = 1.0;  ///< gravity's part square to the surface [-]
+  double turns_ = 1.0;          ///< of the lugs, that forces are the mean of
 };
 
 }  // namespace soilbin::resistive_force
