@@ -193,7 +193,7 @@ int make_shard(const RunOptions& options, const Case& question, const Case& whol
 void print_text(const Case& question, const compare::StudyResults& answered) {
   fmt::print("{}: {} on {}\n{}{}\n{}", question.study.name, compare::tire_in_words(question),
              compare::in_words(question.scenario.soil),
-             asks(question.study, ModelKind::bekker_wong)
+             asks(question.study, ModelKind::bekker_wong) || asks(question.study, ModelKind::rft)
                  ? compare::errors_in_words(question) + "\n"
                  : "",  // grains say beside their answer where their errors come from
              answered.step ? compare::in_words(*answered.step) : "",

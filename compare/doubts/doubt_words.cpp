@@ -98,7 +98,7 @@ constexpr DoubtSentence sentences[] = {
     D(rigid_already, "--rigid is ignored: the tire declares no inflation pressure and is rigid"),
     D(smooth_already, "--no-lugs is ignored: the tire declares no lugs and is smooth"),
     D(ignored_by_rft, "rft ignores {}"),
-    D(rft_values_estimated, "rft: xi_n = {:.3g} ± {:.2g} kN/m^3 and surface friction {:.2g} ± {:.1g} are estimated from "
+    D(rft_values_estimated, "rft: xi_n = {:.3g} ± {:.2g} MN/m^3 and surface friction {:.2g} ± {:.1g} are estimated from "
       "the soil's density and friction angle: declare 'resistive_force', from plates"),
     D(rft_without_cohesion, "rft has no cohesion, and this soil has {:.3g} kPa: it sinks too deep and pulls too little"),
     D(presumed, "{}"),
