@@ -53,6 +53,8 @@ enum class DoubtKind {
   // measured plates
   plate_test_apart, sensor_stuck, many_spikes, one_plate_size, negative_modulus, unusual_plate_exponent,
   scattered_plate_tests, no_repeated_plates, halves_not_compared, form_misses,
+  // measured shear tests
+  one_normal_stress, shear_falls_again, few_shear_tests,
   // drives and pages
   shear_gives_back, grains_left_out,
 };

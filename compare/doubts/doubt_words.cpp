@@ -199,6 +199,11 @@ constexpr DoubtSentence sentences[] = {
       "errors hold nothing of a soil that is no power law"),
     D(form_misses, "Bekker's form misses the pressures by {:.3g} %: fit over the pressures that your wheel makes "
       "(--pressure)"),
+    D(one_normal_stress, "one normal stress ({:.3g} kPa) does not part c from phi: phi is given with c = 0, and is good "
+      "for about this stress"),
+    D(shear_falls_again, "{} of {:#test} fall again behind a peak: Janosi's curve keeps tau_max for ever; a wheel that "
+      "slips much meets the residual strength (effect shear_hump)"),
+    D(few_shear_tests, "{:#test}: c and phi have no error, which takes three"),
     D(shear_gives_back, "the soil's shear gives back {:.3g} J, {:.2g} % of the work that presses the soil: where the "
       "tread slides forward again its stress goes back as it came, at the pressure that acts by then. No soil does "
       "that: what brakes the wheel is too little by about this share"),

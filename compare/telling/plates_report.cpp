@@ -99,12 +99,17 @@ std::string yaml_lines(const MeasuredPlatesFit& fit, const std::string& source) 
                         sd > 0.0 ? fmt::format("{:.{}f}", shown, places) : write_number(shown), unit, sd, places, unit,
                         yaml_scalar(presumed ? source + "; presumed: one size of plate" : source));
   }
+  return text;
+}
+
+/// The section of a soil file that the model rft reads.
+std::string rft_lines(const MeasuredPlatesFit& fit, const std::string& source) {
   const Estimate& xi_n = fit.xi_n.estimate;
-  return text + fmt::format(
-                    "\nFor the model rft, in a soil file (what the wheel is made of says its friction):\n\n"
-                    "resistive_force:\n  xi_n: {{value: {} kN/m^3, sd: {} kN/m^3, source: {}}}\n"
-                    "  surface_friction: {{value: 0.5, sd: 0.1, source: assumed}}\n",
-                    number(xi_n.value / 1e3), number(xi_n.std_error / 1e3), yaml_scalar(source));
+  return fmt::format(
+      "For the model rft, in a soil file:\n\n"
+      "resistive_force:\n  xi_n: {{value: {} kN/m^3, sd: {} kN/m^3, source: {}}}\n"
+      "  surface_friction: {{value: 0.5, sd: 0.1, source: assumed}}\n",
+      number(xi_n.value / 1e3), number(xi_n.std_error / 1e3), yaml_scalar(source));
 }
 
 /// "lines 3, 7 to 9, 12, ..."
@@ -286,6 +291,7 @@ Report report_on(const MeasuredPlatesFit& fit, std::span<const MeasuredPlate> pl
     aside.push_back(fmt::format("With everything kept: n = {}, k_c = {} kN/m^(n+1), k_phi = {} kN/m^(n+2).",
                                 number((*fit.kept)[0]), number((*fit.kept)[1] / 1e3), number((*fit.kept)[2] / 1e3)));
   if (!aside.empty()) report.add("Set aside", Sentences(aside));
+  report.add("For the model rft", Code{rft_lines(fit, "soilbin plates " + file)});
   report.add("For a soil file", Code{yaml_lines(fit, "soilbin plates " + file)});
   report.data = [&fit, tests = plates.size()] { return plates_json(fit, tests); };
   report.sheet = [&fit, plates, file] { return plates_sheet(plates, fit, file); };
