@@ -15,15 +15,15 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double cohesion = 2e3, phi = 31 * degree, modulus = 0.012;
+constexpr double made_cohesion = 2e3, made_phi = 31 * degree, made_modulus = 0.012;
 
 /// Janosi's curve to 60 mm under a normal stress; behind `peak_at` it falls to `falls_to` of its top.
 std::string rows_of_a_test(const std::string& name, double normal_stress, double c, double peak_at = 1.0,
                            double falls_to = 1.0) {
   std::string rows;
   for (int k = 1; k <= 60; ++k) {
-    const double j = 1e-3 * k, top = c + normal_stress * std::tan(phi);
-    double tau = -top * std::expm1(-j / modulus);
+    const double j = 1e-3 * k, top = c + normal_stress * std::tan(made_phi);
+    double tau = -top * std::expm1(-j / made_modulus);
     if (j > peak_at) tau = falls_to * top;
     rows += fmt::format("{},{:.9g},{:.9g},{:.9g}\n", name, 1e3 * j, tau / 1e3, normal_stress / 1e3);
   }
@@ -37,15 +37,15 @@ std::vector<MeasuredShear> read(const std::string& rows) {
 }
 
 TEST(MeasuredShear, GivesBackWhatExactCurvesWereMadeOf) {
-  const auto tests = read(rows_of_a_test("a", 10e3, cohesion) + rows_of_a_test("b", 30e3, cohesion) +
-                          rows_of_a_test("c", 60e3, cohesion));
+  const auto tests = read(rows_of_a_test("a", 10e3, made_cohesion) + rows_of_a_test("b", 30e3, made_cohesion) +
+                          rows_of_a_test("c", 60e3, made_cohesion));
   ASSERT_EQ(tests.size(), 3U);
   EXPECT_EQ(tests[1].test, "b");
   EXPECT_DOUBLE_EQ(tests[1].curve.normal_stress, 30e3);
   const MeasuredShearFit fit = fit_measured_shear(tests);
-  EXPECT_NEAR(fit.cohesion.value, cohesion, 0.1);
-  EXPECT_NEAR(fit.friction_angle.value, phi, 1e-6);
-  EXPECT_NEAR(fit.shear_modulus.value, modulus, 1e-7);
+  EXPECT_NEAR(fit.cohesion.value, made_cohesion, 0.1);
+  EXPECT_NEAR(fit.friction_angle.value, made_phi, 1e-6);
+  EXPECT_NEAR(fit.shear_modulus.value, made_modulus, 1e-7);
   EXPECT_NEAR(fit.friction_angle.std_error, 0.0, 1e-6);
   EXPECT_FALSE(fit.one_stress);
   EXPECT_FALSE(fit.residual_angle);
@@ -54,19 +54,19 @@ TEST(MeasuredShear, GivesBackWhatExactCurvesWereMadeOf) {
 TEST(MeasuredShear, FitsUpToAPeakAndTellsTheResidualStrength) {
   const auto tests = read(rows_of_a_test("a", 20e3, 0.0, 0.04, 0.7) + rows_of_a_test("b", 40e3, 0.0, 0.04, 0.7));
   const MeasuredShearFit fit = fit_measured_shear(tests);
-  EXPECT_NEAR(fit.shear_modulus.value, modulus, 1e-6);
-  EXPECT_NEAR(fit.friction_angle.value, phi, 1e-5);
+  EXPECT_NEAR(fit.shear_modulus.value, made_modulus, 1e-6);
+  EXPECT_NEAR(fit.friction_angle.value, made_phi, 1e-5);
   ASSERT_TRUE(fit.residual_angle);
-  EXPECT_NEAR(fit.residual_angle->value, std::atan(0.7 * std::tan(phi)), 1e-6);
+  EXPECT_NEAR(fit.residual_angle->value, std::atan(0.7 * std::tan(made_phi)), 1e-6);
   EXPECT_NEAR(fit.tests[0].peak_at, 0.04, 1e-9);
 }
 
 TEST(MeasuredShear, DoesNotPartCohesionFromFrictionUnderOneStress) {
   const MeasuredShearFit fit =
-      fit_measured_shear(read(rows_of_a_test("a", 20e3, cohesion) + rows_of_a_test("b", 20e3, cohesion)));
+      fit_measured_shear(read(rows_of_a_test("a", 20e3, made_cohesion) + rows_of_a_test("b", 20e3, made_cohesion)));
   EXPECT_TRUE(fit.one_stress);
   EXPECT_EQ(fit.cohesion.value, 0.0);
-  EXPECT_NEAR(std::tan(fit.friction_angle.value), std::tan(phi) + cohesion / 20e3, 1e-6);
+  EXPECT_NEAR(std::tan(fit.friction_angle.value), std::tan(made_phi) + made_cohesion / 20e3, 1e-6);
 }
 
 TEST(MeasuredShear, CutsACohesionBelowZeroOff) {
@@ -74,7 +74,7 @@ TEST(MeasuredShear, CutsACohesionBelowZeroOff) {
       fit_measured_shear(read(rows_of_a_test("a", 20e3, -500) + rows_of_a_test("b", 40e3, -500)));
   EXPECT_NEAR(fit.cohesion_as_fitted, -500.0, 0.1);
   EXPECT_EQ(fit.cohesion.value, 0.0);
-  EXPECT_LT(fit.friction_angle.value, phi);
+  EXPECT_LT(fit.friction_angle.value, made_phi);
 }
 
 TEST(MeasuredShear, RefusesWhatIsNoShearTest) {
