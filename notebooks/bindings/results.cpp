@@ -9,6 +9,7 @@
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/answer_report.hpp"
 #include "notebooks/bindings/bindings.hpp"
+#include "resistive_force/model.hpp"
 #include "scenario/case.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/traction_channels.hpp"
@@ -104,6 +105,13 @@ void bind_models(py::module_& module) {
            py::arg("errors") = true, py::arg("patch") = true,
            "errors: standard errors from the soil's standard deviations, to first order. patch: stresses under the "
            "wheel. Without them it is several times as fast.");
+  using resistive_force::ResistiveForce;
+  py::class_<ResistiveForce, Model>(
+      module, "ResistiveForce",
+      "Three-dimensional granular resistive force theory (docs/theory/resistive-force.md): "
+      "the tread as drawn, in milliseconds. Without a Soil.resistive_force it takes the "
+      "soil's density and friction angle. It knows no effects.")
+      .def(py::init<>());
   module.def(
       "answers",
       [](const Model& model, const Scenario& scenario, const std::vector<OperatingCondition>& conditions,

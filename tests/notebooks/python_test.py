@@ -55,6 +55,15 @@ class Answers(unittest.TestCase):
             self.assertTrue(np.array_equal(frame[name], [row[name] for row in rows]), name)
         self.assertEqual(list(frame.model.unique()), ["bekker_wong", "bekker_wong + slip_sinkage"])
 
+    def test_resistive_force_theory_is_a_model_too(self):
+        values = soilbin.ResistiveForceSoil(xi_n=soilbin.Estimate(1e6, 1e5), surface_friction=0.5)
+        scenario = soilbin.Scenario("rover-wheel", soilbin.find_soil("dry-sand").replace(resistive_force=values))
+        frame = soilbin.sweep(scenario, soilbin.conditions(load=60.0, slip=[0.1, 0.3]), soilbin.ResistiveForce())
+        self.assertTrue((frame.error == "").all())
+        self.assertTrue((frame.drawbar_pull_std_error > 0).all())
+        self.assertEqual(list(frame.filter(like="budget_")), ["budget_tread"])
+        self.assertGreater(frame.sinkage[1], frame.sinkage[0])
+
     def test_a_condition_without_solution_is_a_row_with_its_error(self):
         frame = soilbin.sweep(ROVER, soilbin.conditions(load=[60.0, 1e5], slip=0.2))
         self.assertEqual(frame.error[0], "")

@@ -37,6 +37,8 @@ from soilbin._soilbin import (
     ModelKind,
     NoSolution,
     OperatingCondition,
+    ResistiveForce,
+    ResistiveForceSoil,
     RollingResistance,
     RunStopped,
     Scenario,
@@ -64,7 +66,7 @@ from soilbin.questions import SoilbinWarning, conditions, estimate, names, run_s
 __all__ = [
     "Bin", "Case", "ContactPair", "Controller", "Drive", "EffectChoice", "EffectForm", "Estimate", "ForceFrame",
     "GranularSoil", "InputError", "LugPattern", "Lugs", "Model", "ModelKind", "NoSolution", "OperatingCondition",
-    "RollingResistance", "RunStopped", "Scenario", "SemiEmpiricalSoil", "Shelf", "SlipBy", "Soil", "SoilbinWarning",
+    "ResistiveForce", "ResistiveForceSoil", "RollingResistance", "RunStopped", "Scenario", "SemiEmpiricalSoil", "Shelf", "SlipBy", "Soil", "SoilbinWarning",
     "Tire", "TractionResult", "Waypoint", "__version__", "bekker_wong", "cases_folders", "compare", "conditions", "dem",
     "doubts", "effect_catalogue", "estimate", "find_case", "find_soil", "find_tire", "in_words", "names", "parse_case",
     "run_study", "sweep", "write_soil", "write_tire",

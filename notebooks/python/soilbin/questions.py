@@ -17,6 +17,7 @@ from soilbin._soilbin import (
     Model,
     ModelKind,
     OperatingCondition,
+    ResistiveForce,
     Scenario,
     Shelf,
     TractionResult,
@@ -141,7 +142,7 @@ def swept(scenario: Scenario, at: Iterable[OperatingCondition], model: Optional[
 
 def run_study(case: Union[Case, str], progress: Progress = "shown", *, rigid: bool = False,
           no_lugs: bool = False) -> pd.DataFrame:
-    """The answers of a study's analytic models as sweep gives them, with a first column `model`.
+    """The answers of a study's quick models (bekker_wong, rft) as sweep gives them, with a first column `model`.
 
     case: a Case, the name of a study in the library, or the path of a YAML file. Grains take minutes a condition: ask
     soilbin.dem.SoilBin for them. A tire with an inflation pressure is flexible or `rigid` as in estimate.
@@ -156,8 +157,12 @@ def run_study(case: Union[Case, str], progress: Progress = "shown", *, rigid: bo
             scenario = question.scenario.with_effects(choice.effects)
             frame = swept(scenario, question.study.conditions, None, progress)
             said += [one for one in frame.attrs.pop("warnings") if one not in said]
-            frame.insert(0, "model", choice.label)
-            frames.append(frame)
+        elif choice.model == ModelKind.rft:
+            frame = swept(question.scenario, question.study.conditions, ResistiveForce(), progress)
+        else:
+            continue
+        frame.insert(0, "model", choice.label)
+        frames.append(frame)
     whole = pd.concat(frames, ignore_index=True) if frames else pd.DataFrame()
     whole.attrs["warnings"] = said
     return whole
