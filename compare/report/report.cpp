@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "compare/report/json_fields.hpp"
 #include "compare/report/markdown.hpp"
@@ -178,6 +180,13 @@ std::vector<ReportPart> with_warnings(std::vector<ReportPart> parts) {
 }
 
 }  // namespace
+
+std::function<Sheet()> drawn_once(std::function<Sheet()> draw) {
+  return [draw = std::move(draw), drawn = std::make_shared<std::optional<Sheet>>()] {
+    if (!*drawn) *drawn = draw();
+    return **drawn;
+  };
+}
 
 std::string text_of(const Report& report) {
   TerminalWriter text;

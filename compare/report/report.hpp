@@ -131,8 +131,9 @@ struct Report {
   /// Made when asked for, while the answer is there; empty: it has none.
   std::function<nlohmann::ordered_json()> data{};  ///< in SI
   std::function<std::string()> csv{};
-  std::function<Sheet()> sheet{};                     ///< its one drawing
+  std::function<Sheet()> sheet{};                     ///< its one drawing (drawn_once)
   std::string data_name = "data", csv_name = "data";  ///< of .json and .csv beside its Markdown
+  std::string no_answer{};                            ///< why it has none: the last line on standard error; else ""
 
   void add(ReportContent content, Told told = Told::everywhere) { parts.push_back({std::move(content), told}); }
   /// Below a heading, which the contents of a page list.
@@ -140,6 +141,9 @@ struct Report {
     parts.push_back({std::move(content), told, std::move(section), std::move(anchor)});
   }
 };
+
+/// Calls `draw` when it is first asked for: a report's drawing is saved by itself and stands on its page.
+std::function<Sheet()> drawn_once(std::function<Sheet()> draw);
 
 /// The heading, the parts and the notes, with blank lines around tables.
 std::string text_of(const Report& report);

@@ -89,17 +89,6 @@ std::string remarks_of(const Comparison& comparison, const Difference& d) {
 
 }  // namespace
 
-std::optional<LoopOfComparison> ask_loop(const Comparison& comparison, const LoopOptions& options) {
-  const Side& reference = comparison.sides.back();
-  if (reference.kind == SideKind::analytic) return std::nullopt;
-  const Campaign campaign = as_campaign(reference, comparison.question);
-  LoopOfComparison loop;
-  if (reference.kind == SideKind::measured)
-    loop.mistaken_columns = in_words(of_mistaken_columns(doubts_before_fit(campaign)));
-  loop.answer = run_loop(campaign, options);
-  return loop;
-}
-
 Json comparison_json(const Comparison& comparison, const ComparisonAbout& about) {
   const Study& study = comparison.question.study;
   Json json = {{"format", "soilbin-compare/1"}, {"study", study.name}, {"summary", Json::array()}};

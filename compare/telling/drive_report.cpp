@@ -711,16 +711,16 @@ Report report_on(const AnalyticDrive& drive) {
   Report report{drive.question.name, drive.question.description, heading_of(drive.question)};
   report.add(samples_table(drive.record), Told::on_terminals);
   report.add(Sentences(sentences_of(drive)));
+  report.sheet = drawn_once([&drive] { return drive_sheet(drive); });
   report.add(
       "Against time",
-      Figure{[&drive] { return drive_sheet(drive); },
+      Figure{report.sheet,
              "The soil in contact has seen the slip of the last quarter turn or so: it lags behind the speeds."});
   if (!drive.errors.moved.empty()) report.add("How sure", errors_table(drive.errors));
   report.add("Where the work went", energy_table(drive.record.samples.back().energy));
   if (!drive.record.happenings.empty()) report.add("On the way", happenings_table(drive.record.happenings));
   report.data = [&drive] { return drive_json(drive); };
   report.csv = [&drive] { return drive_csv(drive); };
-  report.sheet = [&drive] { return drive_sheet(drive); };
   return report;
 }
 
@@ -728,8 +728,9 @@ Report report_on(const DriveSides& drive) {
   Report report{drive.question.name, drive.question.description, heading_of(drive.question)};
   report.add(samples_table(drive), Told::on_terminals);
   report.add(Sentences(sentences_of(drive)));
+  report.sheet = drawn_once([&drive] { return drive_sheet(drive); });
   report.add("Against time",
-             Figure{[&drive] { return drive_sheet(drive); },
+             Figure{report.sheet,
                     "Instants of the analytic wheel; of grains means since the sample before. Dashed: "
                     "mean of the grains where way and motor no longer change, with its standard error."});
   if (!drive.differences.empty()) report.add("Steady state", differences_table(drive));
@@ -739,7 +740,6 @@ Report report_on(const DriveSides& drive) {
   report.notes = drive.notes;
   report.data = [&drive] { return drive_json(drive); };
   report.csv = [&drive] { return drive_csv(drive); };
-  report.sheet = [&drive] { return drive_sheet(drive); };
   return report;
 }
 

@@ -260,8 +260,8 @@ Report report_on(const MeasuredPlatesFit& fit, std::span<const MeasuredPlate> pl
                             fit.highest / 1e3)};
   report.add("Values", values_table(fit));
   report.add(Sentences(words_on_errors(fit)));
-  report.add("Pressure over sinkage", Figure{[&fit, plates, file] { return plates_sheet(plates, fit, file); },
-                                             "Points: readings; lines: Bekker's form."});
+  report.sheet = drawn_once([&fit, plates, file] { return plates_sheet(plates, fit, file); });
+  report.add("Pressure over sinkage", Figure{report.sheet, "Points: readings; lines: Bekker's form."});
   report.add("Plate by plate", plates_table(fit));
   report.add(
       Sentences({fmt::format("b is a round plate's radius, a strip's width. Bekker's form misses the pressures by "
@@ -275,7 +275,6 @@ Report report_on(const MeasuredPlatesFit& fit, std::span<const MeasuredPlate> pl
   if (!aside.empty()) report.add("Set aside", Sentences(aside));
   report.add("For a soil file", Code{yaml_lines(fit, "soilbin plates " + file)});
   report.data = [&fit, tests = plates.size()] { return plates_json(fit, tests); };
-  report.sheet = [&fit, plates, file] { return plates_sheet(plates, fit, file); };
   return report;
 }
 
