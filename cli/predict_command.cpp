@@ -8,7 +8,7 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/loop/answer_words.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "compare/telling/prediction_report.hpp"
 #include "scenario/errors.hpp"
 

@@ -36,6 +36,7 @@ void MarkdownFolder::table(const Table& table) {
     rule.clear();
   }
   body_ += "\n";
+  if (!table.legend.empty()) text(plain(table.legend));
 }
 
 void MarkdownFolder::figure(const std::string& name, const Sheet& sheet) {

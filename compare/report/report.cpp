@@ -24,7 +24,11 @@ class TerminalWriter {
  public:
   void block(const std::string& text) { add(text, true); }
   void lines(const std::vector<std::string>& lines) {
-    for (const std::string& line : lines) add(line + "\n", &line == &lines.front());
+    if (!lines.empty()) block(fmt::format("{}\n", fmt::join(lines, "\n")));
+  }
+  void tell(const Headline& headline) {
+    for (const BackedSentence& one : headline.all)
+      block(fmt::format("{}. {}\n{}{}", one.about, one.text, one.detail, one.detail.empty() ? "" : "\n"));
   }
   void tell(const Sentences& sentences) {
     for (const BackedSentence& one : sentences.all)
@@ -33,9 +37,7 @@ class TerminalWriter {
   void tell(const Prose& prose) {
     for (const std::string& paragraph : prose.paragraphs) add(paragraph + "\n", false);
   }
-  void tell(const Items& items) {
-    for (const std::string& item : items.all) add(item + "\n", false);
-  }
+  void tell(const Items& items) { lines(items.all); }
   void tell(const NamedValues& values) {
     std::size_t longest = 0;
     for (const auto& [name, value] : values.all) longest = std::max(longest, name.size());
@@ -76,12 +78,16 @@ class PageWriter {
   void tell(const Sentences& sentences) {
     if (!sentences.all.empty()) page_.backed_summary(sentences.all);
   }
+  void tell(const Headline& headline) { page_.backed_summary(headline.all); }
   void tell(const Prose& prose) {
     for (const std::string& paragraph : prose.paragraphs) page_.paragraph(paragraph);
   }
   void tell(const Items& items) { page_.list(items.all); }
   void tell(const NamedValues& values) { page_.table(table_of(values)); }
-  void tell(const Table& table) { page_.table(table); }
+  void tell(const Table& table) {
+    page_.table(table);
+    if (!table.legend.empty()) page_.paragraph(table.legend);
+  }
   void tell(const Code& code) { page_.code(code.text); }
   void tell(const KeyFigures& figures) { page_.figures_at_a_glance(figures.all); }
   void tell(const Figure& figure) {
@@ -132,6 +138,10 @@ class MarkdownWriter : public MarkdownFolder {
     for (const BackedSentence& one : sentences.all)
       text(fmt::format("- {}{}", one.about.empty() ? "" : "**" + plain(one.about) + ".** ", plain(one.text)));
   }
+  void tell(const Headline& headline) {
+    for (const BackedSentence& one : headline.all)
+      text(fmt::format("- **{}.** {} {}", plain(one.about), plain(one.text), plain(one.detail)));
+  }
   void tell(const Prose& prose) {
     for (const std::string& paragraph : prose.paragraphs) text(plain(paragraph));
   }
@@ -173,7 +183,7 @@ std::vector<ReportPart> with_warnings(std::vector<ReportPart> parts) {
   };
   if (std::ranges::any_of(parts, is_a(WarningsHere()))) return parts;
   const auto first = std::ranges::find_if(parts, [&](const ReportPart& part) {
-    return holds(part.told, Told::on_pages) && std::holds_alternative<Sentences>(part.content);
+    return holds(part.told, Told::on_pages) && (std::holds_alternative<Sentences>(part.content) || std::holds_alternative<Headline>(part.content));
   });
   parts.insert(first == parts.end() ? first : first + 1, {WarningsHere()});
   return parts;

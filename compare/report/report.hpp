@@ -50,6 +50,10 @@ struct Sentences {
     for (const auto& [about, text] : named) all.push_back({about, text});
   }
 };
+/// What an answer opens with: on a terminal a paragraph each, with its details.
+struct Headline {
+  std::vector<BackedSentence> all;
+};
 /// Running text; on a terminal a line each.
 struct Prose {
   std::vector<std::string> paragraphs;
@@ -110,7 +114,7 @@ struct Html {
 /// Where the doubts stand that the command has found; without it behind the first sentences.
 struct WarningsHere {};
 
-using ReportContent = std::variant<Sentences, Prose, Items, NamedValues, Table, Code, KeyFigures, Figure, Drawings,
+using ReportContent = std::variant<Sentences, Headline, Prose, Items, NamedValues, Table, Code, KeyFigures, Figure, Drawings,
                                    Fold, Choices, ReplayView, Html, WarningsHere>;
 
 struct ReportPart {

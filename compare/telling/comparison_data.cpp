@@ -6,7 +6,7 @@
 #include "compare/discrepancy/causes.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_resolution.hpp"
-#include "compare/loop/answer_words.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"

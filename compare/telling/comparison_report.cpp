@@ -8,7 +8,7 @@
 
 #include "compare/discrepancy/causes.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/loop/answer_words.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/comparison_sheets.hpp"
@@ -205,10 +205,7 @@ void add_loop(Report& report, const Comparison& comparison, const LoopOfComparis
   report.add(Sentences(headline(loop.answer, in_words(loop.mistaken_columns))), Told::on_pages);
   for (Table& table : std::array{next_run_table(loop.answer), error_table(loop.answer), parameters_table(loop.answer)})
     if (!table.rows.empty()) report.add(std::move(table), Told::on_pages);
-  if (loop.answer.has_candidates()) {
-    report.add(candidates_table(loop.answer), Told::on_pages);
-    report.add(Prose{{candidates_columns_in_words()}}, Told::on_pages);
-  }
+  if (loop.answer.has_candidates()) report.add(candidates_table(loop.answer), Told::on_pages);
   report.add(Items{notes(loop.answer)}, Told::on_pages);
 }
 

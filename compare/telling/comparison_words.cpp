@@ -10,7 +10,7 @@
 
 #include "compare/discrepancy/causes.hpp"
 #include "compare/doubts/grain_resolution.hpp"
-#include "compare/loop/answer_words.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "bekker_wong/learned.hpp"
-#include "compare/loop/answer_words.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "compare/loop_fixture.hpp"
 
 namespace soilbin::compare {

@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "compare/loop/answer_words.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "compare/loop_fixture.hpp"
 
 namespace soilbin::compare {

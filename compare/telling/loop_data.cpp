@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bekker_wong/learned.hpp"
-#include "compare/loop/answer_words.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bekker_wong/effects/titles.hpp"
-#include "compare/loop/answer_words.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/report/number_text.hpp"
 
