@@ -106,6 +106,7 @@ class PageWriter {
     for (const auto& [name, parts] : choices.all) all.push_back({name, [this, &parts = parts] { tell(parts()); }});
     page_.choices(choices.what, all, choices.first);
   }
+  void tell(const Cards& cards) { page_.cards(cards.all); }
   void tell(const ReplayView& replay) { page_.replay(replay.title, replay.bytes, replay.caption); }
   void tell(const Html& html) { page_.raw(html.text); }
   void tell(const WarningsHere&) { page_.doubts(doubts_); }

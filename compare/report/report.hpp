@@ -103,6 +103,10 @@ struct Choices {
   std::size_t first = 0;
   bool all_in_documents = true;  ///< else Markdown tells the first alone
 };
+/// Links to other pages, with their drawings.
+struct Cards {
+  std::vector<PageCard> all;
+};
 /// A replay to look at in 3D: Page::replay.
 struct ReplayView {
   std::string title, bytes, caption;
@@ -115,7 +119,7 @@ struct Html {
 struct WarningsHere {};
 
 using ReportContent = std::variant<Sentences, Headline, Prose, Items, NamedValues, Table, Code, KeyFigures, Figure, Drawings,
-                                   Fold, Choices, ReplayView, Html, WarningsHere>;
+                                   Fold, Choices, Cards, ReplayView, Html, WarningsHere>;
 
 struct ReportPart {
   ReportContent content;

@@ -7,7 +7,7 @@
 
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answer_sheets.hpp"
-#include "compare/sweep/answers_page.hpp"
+#include "compare/telling/studies_report.hpp"
 #include "compare/sweep/explanation.hpp"
 #include "compare/sweep/prediction.hpp"
 #include "compare/sweep/result_json.hpp"
