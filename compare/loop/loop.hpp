@@ -102,6 +102,9 @@ struct EffectFound : WithCandidates {
 };
 
 struct UnknownEffect : WithCandidates {
+  /// Whether the effects of the best candidate are among the proxies: conditions left out are predicted better with
+  /// them.
+  bool uses_candidate = false;
   /// The best named effects, where conditions left out are predicted better with them, then the learned ones. They are
   /// in the model that is saved in place of the unknown effect, and explain nothing.
   std::vector<AcceptedEffect> proxy_effects;
