@@ -12,10 +12,10 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
-#include "compare/telling/calibration_report.hpp"
 #include "compare/calibrate/published_sets.hpp"
 #include "compare/measured/csv.hpp"
 #include "compare/sweep/result_json.hpp"
+#include "compare/telling/calibration_report.hpp"
 #include "scenario/atomic_file.hpp"
 
 namespace soilbin::cli {

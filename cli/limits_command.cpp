@@ -9,7 +9,8 @@
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/question.hpp"
-#include "compare/telling/limits_report.hpp"
+#include "compare/sweep/wheel_limits.hpp"
+#include "compare/telling/reports.hpp"
 
 namespace soilbin::cli {
 namespace {

@@ -1,6 +1,6 @@
 // soilbin loop: residual, cause, effect added, error before and after, on a measured campaign.
-#include <nlohmann/json.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"

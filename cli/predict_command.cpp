@@ -8,8 +8,10 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "compare/doubts/doubts.hpp"
+#include "compare/measured/campaign.hpp"
+#include "compare/sweep/prediction.hpp"
 #include "compare/telling/loop_report.hpp"
-#include "compare/telling/prediction_report.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {

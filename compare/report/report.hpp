@@ -118,8 +118,8 @@ struct Html {
 /// Where the doubts stand that the command has found; without it behind the first sentences.
 struct WarningsHere {};
 
-using ReportContent = std::variant<Sentences, Headline, Prose, Items, NamedValues, Table, Code, KeyFigures, Figure, Drawings,
-                                   Fold, Choices, Cards, ReplayView, Html, WarningsHere>;
+using ReportContent = std::variant<Sentences, Headline, Prose, Items, NamedValues, Table, Code, KeyFigures, Figure,
+                                   Drawings, Fold, Choices, Cards, ReplayView, Html, WarningsHere>;
 
 struct ReportPart {
   ReportContent content;

@@ -1,12 +1,15 @@
-#include "compare/telling/bevameter_report.hpp"
-
+// What a virtual bevameter found in a soil's grains, as it is told; soilbin-bevameter/1.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "compare/bevameter/bevameter.hpp"
+#include "compare/experiments/virtual_bevameter.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/telling/reports.hpp"
+#include "scenario/soil.hpp"
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {

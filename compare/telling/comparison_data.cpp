@@ -6,7 +6,6 @@
 #include "compare/discrepancy/causes.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_resolution.hpp"
-#include "compare/telling/loop_report.hpp"
 #include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
@@ -14,6 +13,7 @@
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/comparison_report.hpp"
 #include "compare/telling/comparison_words.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "scenario/mapping_writer.hpp"
 
 namespace soilbin::compare {

@@ -8,12 +8,12 @@
 
 #include "compare/discrepancy/causes.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/telling/loop_report.hpp"
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/comparison_sheets.hpp"
 #include "compare/telling/comparison_tables.hpp"
 #include "compare/telling/comparison_words.hpp"
+#include "compare/telling/loop_report.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -10,10 +10,10 @@
 
 #include "compare/discrepancy/causes.hpp"
 #include "compare/doubts/grain_resolution.hpp"
-#include "compare/telling/loop_report.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {

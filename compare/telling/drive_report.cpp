@@ -1,5 +1,4 @@
-#include "compare/telling/drive_report.hpp"
-
+// A drive as it is told: the analytic wheel's, and both models' side by side.
 #include <fmt/core.h>
 #include <fmt/format.h>
 
@@ -8,11 +7,14 @@
 #include <cmath>
 #include <functional>
 
+#include "compare/drives/drive.hpp"
+#include "compare/drives/drive_sides.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/drive_way.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/unit.hpp"

@@ -1,5 +1,4 @@
-#include "compare/telling/limits_report.hpp"
-
+// What a wheel can do at best, as it is told; the rows of soilbin-limits/1.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -12,7 +11,9 @@
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/sweep/wheel_limits.hpp"
 #include "compare/telling/answer_report.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {

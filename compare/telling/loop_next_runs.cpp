@@ -5,10 +5,10 @@
 
 #include "compare/attribution/choice.hpp"
 #include "compare/fit/thresholds.hpp"
-#include "compare/telling/loop_report.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/telling/loop_report.hpp"
 
 namespace soilbin::compare {
 namespace {

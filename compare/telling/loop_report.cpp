@@ -422,8 +422,7 @@ void add_main_figure(Report& report, const LoopAnswer& answer, const Variables& 
   for (const auto& [label, rows] : curves) {
     sheets.emplace_back(label, drawn_once([&answer, rows = rows] { return curve_sheet_of(answer, rows); }));
     choices.all.emplace_back(label, [&answer, sheet = sheets.back().second] {
-      return LoopParts{
-          {Figure(sheet, caption_of_models(answer) + " Curves: at the mean of these runs' conditions.")}};
+      return LoopParts{{Figure(sheet, caption_of_models(answer) + " Curves: at the mean of these runs' conditions.")}};
     });
   }
   if (curves.size() > 1)
@@ -461,9 +460,9 @@ void add_gaps(Report& report, const LoopAnswer& answer, const Variables& variabl
   Choices choices{"Over", {}};
   for (const Covariate& x : *variables)
     choices.all.emplace_back(std::string(condition_view(x.name).title), [&answer, variables, &x] {
-      return LoopParts{{Figure([&answer, variables, &x] { return gap_sheet(answer, x); },
-                               "Each run, less the model before. Runs of one setting stand side by side. " +
-                                   caption_of_models(answer))}};
+      return LoopParts{{Figure(
+          [&answer, variables, &x] { return gap_sheet(answer, x); },
+          "Each run, less the model before. Runs of one setting stand side by side. " + caption_of_models(answer))}};
     });
   report.add("What the base model misses, over each variable", std::move(choices), Told::to_look_at, "gaps");
 }
@@ -492,9 +491,8 @@ LoopParts signature_parts(const LoopAnswer& answer, const Variables& variables) 
 LoopParts noise_parts(const LoopAnswer& answer) {
   LoopParts parts{{noise_table(answer)}};
   if (answer.validation.overall.cells > 0 && answer.uses_effects())
-    parts.push_back(
-        {Prose{{fmt::format("The cross-validated squared error falls by {} ± {} noise variances a value.",
-                            number(answer.validation.gain), number(answer.validation.gain_error))}}});
+    parts.push_back({Prose{{fmt::format("The cross-validated squared error falls by {} ± {} noise variances a value.",
+                                        number(answer.validation.gain), number(answer.validation.gain_error))}}});
   return parts;
 }
 
@@ -520,8 +518,8 @@ Report report_on(const Campaign& campaign, const LoopAnswer& answer, const Doubt
   report.add(Headline{headline(answer, in_words(of_mistaken_columns(doubts)))});
   if (Table next = next_run_table(answer); !next.rows.empty()) report.add(std::move(next));
   const bool judged = answer.judgement() && (answer.verdict() != Verdict::not_enough_data || answer.has_candidates());
-  const auto variables = std::make_shared<const std::vector<Covariate>>(judged ? variables_by_weight(answer)
-                                                                               : std::vector<Covariate>());
+  const auto variables =
+      std::make_shared<const std::vector<Covariate>>(judged ? variables_by_weight(answer) : std::vector<Covariate>());
   if (judged) add_main_figure(report, answer, variables);
   add_tables(report, answer, judged ? Told::everywhere : Told::in_text);
   if (judged) add_gaps(report, answer, variables);

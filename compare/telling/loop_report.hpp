@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "compare/doubts/doubt.hpp"
 #include "compare/loop/loop.hpp"
 #include "compare/report/report.hpp"
 #include "scenario/case.hpp"

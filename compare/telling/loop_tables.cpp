@@ -6,9 +6,9 @@
 
 #include "bekker_wong/effects/titles.hpp"
 #include "bekker_wong/learned.hpp"
-#include "compare/telling/loop_report.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {

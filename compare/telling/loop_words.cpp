@@ -1,5 +1,3 @@
-#include "compare/telling/loop_report.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {

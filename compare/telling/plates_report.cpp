@@ -1,13 +1,14 @@
-#include "compare/telling/plates_report.hpp"
-
+// What measured plate tests gave, as it is told; soilbin-plates/1.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "compare/bevameter/measured_plates.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/quantity.hpp"
 #include "scenario/soil_parameters.hpp"

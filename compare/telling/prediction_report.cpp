@@ -1,15 +1,17 @@
-#include "compare/telling/prediction_report.hpp"
-
+// A campaign beside its prediction, as it is told; soilbin-predict/1.
 #include <fmt/core.h>
 
 #include <algorithm>
 
 #include "compare/doubts/doubts.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answer_sheets.hpp"
+#include "compare/sweep/prediction.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/reports.hpp"
 
 namespace soilbin::compare {
 namespace {

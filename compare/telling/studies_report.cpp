@@ -225,12 +225,12 @@ Figure curve_figure(const StudyPart& part, const Case& curves, const std::vector
   Sheet sheet = study_sheet(curves, along);
   const bool one_curve = sheet.palette == Palette::named;
   leave_one_band(sheet, one_curve);
-  std::string caption = fmt::format(
-      "{} on {}. Efficiency is drawn where the wheel both drives and pulls.{}{}", part.question.scenario.tire.name,
-      in_words(part.question.scenario.soil),
-      part.study.size() > 1 && !one_curve ? fmt::format(" Dashed: {}.", model_in_words(part.study[1].choice.label))
-                                          : "",
-      bands_in_words(sheet.plots.front().series));
+  std::string caption = fmt::format("{} on {}. Efficiency is drawn where the wheel both drives and pulls.{}{}",
+                                    part.question.scenario.tire.name, in_words(part.question.scenario.soil),
+                                    part.study.size() > 1 && !one_curve
+                                        ? fmt::format(" Dashed: {}.", model_in_words(part.study[1].choice.label))
+                                        : "",
+                                    bands_in_words(sheet.plots.front().series));
   return {std::move(sheet), std::move(caption)};
 }
 
@@ -360,7 +360,8 @@ std::string in_words(const StudyPart& part) {
   if (solved.empty()) return "No condition has a solution.";
   const std::size_t shown = solved[(solved.size() - 1) / 2];
   std::string text = largest_pull(base[shown]);
-  if (leading > 0) text = capital(model_in_words(part.study[leading].choice.label)) + ", at the declared pressure. " + text;
+  if (leading > 0)
+    text = capital(model_in_words(part.study[leading].choice.label)) + ", at the declared pressure. " + text;
   for (std::size_t m = 0; m < part.study.size(); ++m) {
     if (m == leading) continue;
     const std::vector<Peak> other = peaks(part, m);

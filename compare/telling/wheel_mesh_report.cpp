@@ -1,10 +1,12 @@
-#include "compare/telling/wheel_mesh_report.hpp"
-
+// What was found in a drawing of a wheel and what was mended in it; soilbin-mesh/1: docs/guide/bring-a-tire.md.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+
+#include "compare/telling/reports.hpp"
+#include "dem/surface/drawn_wheel.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "compare/telling/loop_report.hpp"
 #include "compare/loop_fixture.hpp"
+#include "compare/telling/loop_report.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -137,7 +137,7 @@ TEST(Page, ACardsLineEndsAtAWord) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("soilbin-card-line-{}", ::getpid());
   const auto line_of = [&](const std::string& text) {
     Page page("title", "below");
-    page.sentences({text});
+    page.summary({{"", text}});
     write_file_atomically(folder / "page.html", page.html());
     return page_card(folder / "page.html", folder / "index.html").line;
   };
