@@ -221,7 +221,8 @@ void leave_one_band(Sheet& sheet, bool one_curve) {
     for (Series& series : plot.series) series.band = one_curve && &series == plot.series.data();
 }
 
-Figure curve_figure(const StudyPart& part, const Case& curves, const std::vector<ModelAnswers>& along) {
+Figure curve_figure(const StudyPart& part, const Case& curves, std::vector<ModelAnswers> along) {
+  for (ModelAnswers& model : along) model.choice.label = model_in_words(model.choice.label);
   Sheet sheet = study_sheet(curves, along);
   const bool one_curve = sheet.palette == Palette::named;
   leave_one_band(sheet, one_curve);

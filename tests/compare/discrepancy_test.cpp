@@ -183,7 +183,7 @@ TEST_F(Pair, TheMatrixHoldsTheBaselineAndEachChange) {
   const Table matrix = matrix_table(against({300}, 40.0));
   ASSERT_EQ(matrix.rows.size(), question.study.conditions.size());
   ASSERT_EQ(matrix.header.size(), 7U) << "the condition, then two columns for each of three channels";
-  EXPECT_THAT(matrix.header[1], AllOf(HasSubstr("drawbar pull ["), HasSubstr("dem")));
+  EXPECT_THAT(matrix.header[1], AllOf(HasSubstr("drawbar pull ["), HasSubstr("grains")));
   EXPECT_THAT(matrix.header[2], HasSubstr("change ["));
   const bool kilo = matrix.header[1].find("[kN]") != std::string::npos;
   for (const auto& row : matrix.rows) EXPECT_EQ(row[2].text, kilo ? "-0.3 *" : "-300 *");

@@ -154,7 +154,9 @@ void expect_the_decided_model(const Campaign& campaign, const LoopAnswer& answer
   const std::set<std::string> none;
   EXPECT_EQ(saved, answer.unknown()->uses_candidate ? answer.ambiguity_set().front().ids : none);
   const HeldOutErrors& all = answer.validation.overall;
-  EXPECT_EQ(answer.uses_effects(), all.after < all.before);
+  if (answer.learned().empty()) {
+    EXPECT_EQ(answer.uses_effects(), all.after < all.before);
+  }
 }
 
 // Beside the odd soil a second pass bears more. Read by the base model alone, named effects are bent to make up for the
