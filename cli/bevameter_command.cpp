@@ -10,8 +10,11 @@
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
-#include "compare/telling/bevameter_report.hpp"
+#include "compare/bevameter/bevameter.hpp"
+#include "compare/experiments/virtual_bevameter.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/soil.hpp"
 
 namespace soilbin::cli {
 namespace {

@@ -12,10 +12,10 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
-#include "compare/calibrate/calibration_words.hpp"
 #include "compare/calibrate/published_sets.hpp"
 #include "compare/measured/csv.hpp"
 #include "compare/sweep/result_json.hpp"
+#include "compare/telling/calibration_report.hpp"
 #include "scenario/atomic_file.hpp"
 
 namespace soilbin::cli {
@@ -30,7 +30,8 @@ struct CalibrateOptions {
   DecisionFlags decision;
   BatchFlags batch;
   compare::CalibrationOptions options;
-  bool json = false, runs = false;
+  OutputFlags outputs;
+  bool runs = false;
 };
 
 /// One line on a terminal: which run, what goes on inside it, the time left if all runs are needed.
@@ -64,15 +65,6 @@ fs::path store_of(const CalibrateOptions& asked, const Soil& soil) {
 /// Where the soil bin's runs are kept: a folder beside the store, named after it.
 fs::path records_beside(const fs::path& store) {
   return store.empty() ? store : store.parent_path() / (store.stem().string() + "-runs");
-}
-
-void print(const CalibrateOptions& asked, const compare::VirtualTest& test, const compare::Calibration& calibration) {
-  for (const std::string& sentence : compare::calibration_sentences(test, asked.options, calibration))
-    fmt::print("{}\n", sentence);
-  for (std::size_t t = 0; t < calibration.analyses.size(); ++t)
-    fmt::print("\n{}", as_text(compare::level_table(test, calibration, t)));
-  if (!calibration.candidates.empty()) fmt::print("\n{}", as_text(compare::candidates_table(test, calibration)));
-  if (asked.runs) fmt::print("\n{}", as_text(compare::runs_table(test, calibration)));
 }
 
 /// The published sets of a file by our virtual test.
@@ -117,14 +109,11 @@ void add_decision(CalibrateOptions& asked, const Calibrated& what, fs::path reco
 }
 
 int tell(const CalibrateOptions& asked, const Soil& soil, ContactKind kind, const compare::VirtualTest& test,
-         const compare::Calibration& calibration) {
-  Outputs outputs;
+         const compare::Calibration& calibration, const Session& session) {
+  Outputs outputs =
+      publish(compare::report_on(test, asked.options, calibration, asked.runs), asked.outputs, {}, session);
   outputs.file(asked.output,
                [&] { return write_soil(compare::calibrated_soil(soil, kind, test, asked.options, calibration)); });
-  if (asked.json)
-    print_json(compare::to_json(test, asked.options, calibration));
-  else
-    print(asked, test, calibration);
   return outputs.status(calibration.reached ? done : failed);
 }
 
@@ -142,7 +131,8 @@ void check_flags(const CalibrateOptions& asked, const CLI::App& command, Contact
     if (!asked.decision.given()) refuse({"--settling-friction"}, hint);
   }
   if (!asked.beside.empty())
-    refuse({"--design", "--runs", "--near", "--within", "--probability", "--output", "--json", "--show-runs"},
+    refuse({"--design", "--runs", "--near", "--within", "--probability", "--output", "--json", "--report", "--markdown",
+            "--show-runs"},
            "beside --beside, which only runs the sets of a table\n  hint: leave out one of the two");
 }
 
@@ -175,7 +165,7 @@ int calibrate(CalibrateOptions asked, const CLI::App& command, const Session& se
     throw;
   }
   clear_progress_line();
-  return tell(asked, soil, kind, test, calibration);
+  return tell(asked, soil, kind, test, calibration, session);
 }
 
 void add_options(CLI::App& command, CalibrateOptions& asked) {
@@ -194,7 +184,7 @@ void add_options(CLI::App& command, CalibrateOptions& asked) {
   asked.batch.add_to(command);
   command.get_option("--beside")->excludes("--decide");
   command.add_flag("--show-runs", asked.runs, "the table of all experiments");
-  command.add_flag("--json", asked.json, "soilbin-calibration/1, in SI");
+  asked.outputs.add_to(command, {.json = "soilbin-calibration/1, in SI"});
 }
 
 }  // namespace

@@ -119,8 +119,7 @@ int compare_models(CompareOptions asked, const CLI::App& command, const Session&
   about.title = asked.title.empty() ? "Comparison: " + question.study.name : asked.title;
   about.command = session.command, about.versions = versions();
   about.resolved_case = write_case(question, session.place.effects);
-  const compare::ToldComparison told(comparison, std::move(about));
-  const Outputs outputs = publish(compare::report_on(told), asked.outputs, doubts, session);
+  const Outputs outputs = publish(compare::report_on(comparison, about), asked.outputs, doubts, session);
   delete_restarts(runs, outputs);
   return outputs.status(done);
 }

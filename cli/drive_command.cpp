@@ -11,8 +11,10 @@
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/versions.hpp"
+#include "compare/drives/drive.hpp"
+#include "compare/drives/drive_sides.hpp"
 #include "compare/experiments/grain_drives.hpp"
-#include "compare/telling/drive_report.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 

@@ -9,7 +9,12 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
-#include "compare/telling/element_test_report.hpp"
+#include "compare/telling/reports.hpp"
+#include "dem/element_tests/angle_of_repose.hpp"
+#include "dem/element_tests/bevameter_tests.hpp"
+#include "dem/element_tests/direct_shear.hpp"
+#include "dem/element_tests/tilting_board.hpp"
+#include "dem/element_tests/triaxial.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 

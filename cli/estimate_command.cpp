@@ -37,11 +37,7 @@ int estimate(const Question& inputs, const EstimateOptions& options, const Sessi
     return document_of("soilbin-estimate/1", question, compare::rows_json(study), session.place.effects);
   };
   report.resolved_case = write_case(question, session.place.effects);
-  if (!compare::any_result(study)) report.heading.clear(), report.parts.clear();  // standard error says why
-  const Outputs outputs = publish(report, options.outputs, joined_doubts(std::move(notes), question, study), session);
-  if (compare::any_result(study)) return outputs.status(done);
-  fmt::print(stderr, "soilbin: no solution: {}\n", study.front().answers.front().error);
-  return failed;
+  return publish(report, options.outputs, joined_doubts(std::move(notes), question, study), session).status(done);
 }
 
 }  // namespace

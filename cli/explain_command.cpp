@@ -1,16 +1,13 @@
 // soilbin explain: the budget of forces, the equations with the values put in, closed forms to check by, sources.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/outputs.hpp"
 #include "cli/question.hpp"
-#include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/sweep/sources.hpp"
-#include "compare/sweep/varying.hpp"
 #include "compare/telling/answer_report.hpp"
 #include "scenario/errors.hpp"
 
@@ -24,32 +21,17 @@ int explain(const Question& inputs, const TireFlags& tire, const OutputFlags& as
     throw InputError(fmt::format("{} conditions are too many to explain; pick one with --load, --slip, ...",
                                  question.study.conditions.size()));
   compare::Doubts notes = tire.apply(question, inputs.switches_effects_off());
-  const std::string heading =
-      fmt::format("{} on {}", compare::tire_in_words(question), compare::in_words(question.scenario.soil));
-  compare::Report report{"Why: " + heading, question.description, heading};
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  std::vector<compare::ModelAnswers> answered;
-  for (const ModelChoice& choice : question.study.models) {
-    if (choice.model != ModelKind::bekker_wong) compare::make_model(choice.model);
-    const Scenario scenario = seen_by(choice, question.scenario);
-    for (const OperatingCondition& at : question.study.conditions) {
-      const compare::Explanation explanation = compare::explain(scenario, at);
-      rows.push_back(to_json(explanation, choice, at));
-      for (compare::ReportPart& part : compare::explanation_parts(choice, at, explanation))
-        report.parts.push_back(std::move(part));
-      answered.push_back({choice, {{at, explanation.result, ""}}});
-    }
-  }
-  report.add(compare::WarningsHere());
-  Table sources = compare::sources_table(question.scenario);
-  sources.caption = "Where the values come from";
-  report.add(std::move(sources));
+  const std::vector<compare::Explained> explained = compare::explain(question);
+  compare::Report report = compare::report_on(question, explained);
   report.resolved_case = write_case(question, session.place.effects);
   report.data = [&] {
-    nlohmann::ordered_json document = document_of("soilbin-explain/1", question, rows, session.place.effects);
+    nlohmann::ordered_json document =
+        document_of("soilbin-explain/1", question, compare::rows_json(explained), session.place.effects);
     document["sources"] = compare::sources_json(question.scenario);
     return document;
   };
+  std::vector<compare::ModelAnswers> answered;
+  for (const compare::Explained& one : explained) answered.push_back({one.choice, {{one.at, one.why.result, ""}}});
   return publish(report, asked, joined_doubts(std::move(notes), question, answered), session).status(done);
 }
 

@@ -15,8 +15,8 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/experiments/failure_map_grains.hpp"
 #include "compare/experiments/run_plan.hpp"
-#include "compare/telling/failure_map_report.hpp"
-#include "scenario/atomic_file.hpp"
+#include "compare/failure_map/learned_map.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/nearest_word.hpp"
 
 namespace soilbin::cli {

@@ -9,7 +9,8 @@
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/question.hpp"
-#include "compare/telling/limits_report.hpp"
+#include "compare/sweep/wheel_limits.hpp"
+#include "compare/telling/reports.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -36,12 +37,7 @@ int limits(const Question& inputs, const LimitsOptions& options, const Session& 
     return document_of("soilbin-limits/1", question, compare::limits_rows(answers), session.place.effects);
   };
   report.resolved_case = write_case(question, session.place.effects);
-  const Outputs outputs =
-      publish(report, options.outputs, joined_doubts(std::move(notes), question, at_limits), session);
-  for (const compare::WheelLimits& answer : answers)
-    if (answer.error.empty()) return outputs.status(done);
-  fmt::print(stderr, "soilbin: no solution: {}\n", answers.front().error);
-  return failed;
+  return publish(report, options.outputs, joined_doubts(std::move(notes), question, at_limits), session).status(done);
 }
 
 }  // namespace

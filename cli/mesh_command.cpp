@@ -10,7 +10,8 @@
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
-#include "compare/telling/wheel_mesh_report.hpp"
+#include "compare/telling/reports.hpp"
+#include "dem/surface/drawn_wheel.hpp"
 #include "scenario/case.hpp"
 
 namespace soilbin::cli {

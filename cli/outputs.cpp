@@ -74,7 +74,7 @@ void Outputs::drawing(const std::string& name, const std::function<compare::Shee
   file(name, [&] { return drawing_format_of(name)->from_svg(compare::svg(sheet())); });
 }
 
-int Outputs::status(int so_far) const { return complete_ ? so_far : failed; }
+int Outputs::status(int so_far) const { return complete_ && answered_ ? so_far : failed; }
 
 CLI::Option* add_decimal_comma(CLI::App& command, CsvOutput& csv) {
   return command.add_flag("--decimal-comma", csv.decimal_comma,
@@ -132,6 +132,9 @@ Outputs publish(compare::Report report, const OutputFlags& asked, const compare:
     print_json(report.data());
   else
     fmt::print("{}", compare::text_of(report));
+  if (report.no_answer.empty()) return outputs;
+  fmt::print(stderr, "soilbin: {}\n", report.no_answer);
+  outputs.has_no_answer();
   return outputs;
 }
 

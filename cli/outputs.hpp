@@ -35,11 +35,12 @@ class Outputs {
   void drawing(const std::string& name, const std::function<compare::Sheet()>& sheet);
 
   bool complete() const { return complete_; }
-  /// The command's exit status: `so_far`, or `failed` where a file is missing.
+  /// The command's exit status: `so_far`, or `failed` where a file is missing or there is no answer.
   int status(int so_far) const;
+  void has_no_answer() { answered_ = false; }
 
  private:
-  bool complete_ = true;
+  bool complete_ = true, answered_ = true;
 };
 
 /// Adds --csv, which names a file to write: tried as by add_file; and --decimal-comma, its dialect.
@@ -68,7 +69,8 @@ struct OutputFlags {
   void add_to(CLI::App& command, const Meanings& meanings);
 };
 
-/// Tells the doubts on standard error, writes the files that were asked for, and prints the answer as text or JSON.
+/// Tells the doubts on standard error, writes the files that were asked for, and prints the answer as text or
+/// JSON; what has none says why.
 Outputs publish(compare::Report report, const OutputFlags& asked, const compare::Doubts& doubts,
                 const Session& session);
 

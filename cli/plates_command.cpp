@@ -8,8 +8,9 @@
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
+#include "compare/bevameter/measured_plates.hpp"
 #include "compare/doubts/plate_doubts.hpp"
-#include "compare/telling/plates_report.hpp"
+#include "compare/telling/reports.hpp"
 
 namespace soilbin::cli {
 namespace {

@@ -8,8 +8,10 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/loop/answer_words.hpp"
-#include "compare/telling/prediction_report.hpp"
+#include "compare/measured/campaign.hpp"
+#include "compare/sweep/prediction.hpp"
+#include "compare/telling/loop_report.hpp"
+#include "compare/telling/reports.hpp"
 #include "resistive_force/model.hpp"
 #include "scenario/errors.hpp"
 

@@ -13,8 +13,8 @@
 #include "cli/versions.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/named_doubts.hpp"
-#include "compare/sweep/answers_page.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/studies_report.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
@@ -103,9 +103,9 @@ int report(const ReportOptions& asked, const Session& session) {
   }
   const compare::Doubts doubts = named.all();
   print_warnings(doubts);
-  write_file_atomically(options.output, compare::analysis_page(
-                                            studies, campaigns,
-                                            {options.title, command_of(options), versions(), in_words(doubts)}, links));
+  write_file_atomically(options.output,
+                        compare::page_of(compare::report_on(studies, campaigns, links),
+                                         {options.title, command_of(options), versions(), in_words(doubts)}));
   fmt::print("wrote {}: open it in a browser\n", options.output);
   return done;
 }

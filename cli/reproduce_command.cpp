@@ -10,8 +10,9 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
+#include "compare/reproduction/reproduction.hpp"
 #include "compare/reproduction/study_answers.hpp"
-#include "compare/telling/reproduction_report.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 

@@ -15,7 +15,6 @@
 #include "compare/experiments/convergence.hpp"
 #include "compare/experiments/run_plan.hpp"
 #include "compare/experiments/study_results.hpp"
-#include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/answer_report.hpp"
 #include "scenario/atomic_file.hpp"
@@ -26,9 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RunOptions {
-  std::string study, model, plot, output;
-  CsvOutput csv;
-  bool json = false, converge = false, dry_run = false;
+  OutputFlags outputs;
+  std::string study, model, output;
+  bool converge = false, dry_run = false;
   ConditionFlags conditions;
   ErrorFlag errors;
   TireFlags tire;
@@ -36,23 +35,13 @@ struct RunOptions {
   SoilBinFlags soil_bin;
 };
 
-compare::Json run_document(const Case& question, const compare::StudyResults& answered, const Workplace& place) {
-  compare::Json document = to_json(question, answered);
-  document["case"] = write_case(question, place.effects);
-  return document;
-}
-
-void save(Outputs& outputs, const RunOptions& options, const Case& question, const compare::StudyResults& answered,
-          const Workplace& place) {
-  const std::vector<compare::ModelAnswers>& study = answered.study;
-  const auto csv = [&] { return compare::study_csv(study, compare::remarks_about(question.scenario, answered)); };
-  outputs.csv(options.csv, csv);
-  outputs.drawing(options.plot, [&] { return compare::plot_of_study(question, study); });
+/// The report's case, table and data in a folder.
+void save(Outputs& outputs, const RunOptions& options, const compare::Report& report) {
   outputs.write(options.output, [&] {
     const fs::path folder = options.output;
-    write_file_atomically(folder / "case.yaml", write_case(question, place.effects));
-    write_file_atomically(folder / "results.csv", options.csv.in_dialect(csv()));
-    write_file_atomically(folder / "results.json", compare::json_text(run_document(question, answered, place)));
+    write_file_atomically(folder / "case.yaml", report.resolved_case);
+    write_file_atomically(folder / "results.csv", options.outputs.csv.in_dialect(report.csv()));
+    write_file_atomically(folder / "results.json", compare::json_text(report.data()));
   });
 }
 
@@ -67,17 +56,19 @@ void check_flags_of_converge(const RunOptions& options) {
       {"--half-step", !bin.half_step.empty()},
       {"--replay", !bin.replay.empty()},
       {"--paraview", !bin.paraview.empty()},
-      {"--plot", !options.plot.empty()},
-      {"--csv", !options.csv.file.empty()},
+      {"--plot", !options.outputs.plot.empty()},
+      {"--report", !options.outputs.report.empty()},
+      {"--markdown", !options.outputs.markdown.empty()},
+      {"--csv", !options.outputs.csv.file.empty()},
       {"--output", !options.output.empty()},
-      {"--json", options.json && options.dry_run},
+      {"--json", options.outputs.json && options.dry_run},
   };
   for (const auto& [flag, is_given] : given)
     if (is_given)
       throw InputError(fmt::format(
           "{0} means nothing beside --converge{1}, which repeats one condition on one bed and prints what changes\n  "
           "hint: leave out {0}, or --converge",
-          flag, options.json && options.dry_run ? " --dry-run" : ""));
+          flag, options.outputs.json && options.dry_run ? " --dry-run" : ""));
 }
 
 /// Throws InputError for a flag that means nothing beside the others.
@@ -138,7 +129,7 @@ int converge(const RunOptions& options, const Case& question, const Session& ses
   }
   const auto runs = compare::run_variants(settings_of(options.soil_bin), question, session.place.effects,
                                           keeping_of(options.soil_bin));
-  if (options.json) {
+  if (options.outputs.json) {
     print_json(compare::convergence_json(runs));
   } else {
     fmt::print("{}{}", heading, as_text(compare::convergence_table(runs)));
@@ -157,7 +148,7 @@ int plan(const RunOptions& options, const Case& question) {
   const compare::RunPlan plan = compare::plan_of(question, settings_of(bin), bin.runs(question), keeping_of(bin));
   const compare::Doubts doubts = doubts_before_runs(options, question);
   print_warnings(doubts);
-  if (options.json)
+  if (options.outputs.json)
     print_json(compare::plan_json(plan), doubts);
   else
     fmt::print("{}", compare::plan_text(plan));
@@ -190,18 +181,6 @@ int make_shard(const RunOptions& options, const Case& question, const Case& whol
   }
 }
 
-void print_text(const Case& question, const compare::StudyResults& answered) {
-  fmt::print("{}: {} on {}\n{}{}\n{}", question.study.name, compare::tire_in_words(question),
-             compare::in_words(question.scenario.soil),
-             asks(question.study, ModelKind::bekker_wong) || asks(question.study, ModelKind::rft)
-                 ? compare::errors_in_words(question) + "\n"
-                 : "",  // grains say beside their answer where their errors come from
-             answered.step ? compare::in_words(*answered.step) : "",
-             text_of(compare::Report{.title = "", .subtitle = "", .parts = compare::study_parts(answered.study)}));
-  if (const std::string notes = compare::notes_on(answered.runs); !notes.empty())
-    fmt::print("\n{}{}", notes, compare::relative_density_of(answered.runs, question.scenario.soil, folder_of_beds()));
-}
-
 /// Asks every model, and says what it answers.
 int answer(const RunOptions& options, const Case& question, const Case& whole,
            const std::optional<dem::StepCriteria>& step, const Session& session) {
@@ -217,23 +196,26 @@ int answer(const RunOptions& options, const Case& question, const Case& whole,
   });
   answered.step = step;
   answered.doubts.insert(answered.doubts.begin(), options.notes.begin(), options.notes.end());
-  Outputs outputs;
-  save(outputs, options, question, answered, session.place);
-  print_warnings(answered.doubts);
-  if (options.json)
-    print_json(run_document(question, answered, session.place));
-  else
-    print_text(question, answered);
+  compare::Report report = compare::report_on(
+      question, answered,
+      answered.runs.empty() ? ""
+                            : compare::relative_density_of(answered.runs, question.scenario.soil, folder_of_beds()));
+  report.resolved_case = write_case(question, session.place.effects);
+  report.data = [&] {
+    compare::Json document = to_json(question, answered);
+    document["case"] = report.resolved_case;
+    return document;
+  };
+  report.csv = [&] { return compare::study_csv(answered.study, compare::remarks_about(question.scenario, answered)); };
+  Outputs outputs = publish(report, options.outputs, answered.doubts, session);
+  save(outputs, options, report);
   delete_restarts(answered.runs, outputs);
-  if (compare::any_result(answered.study)) return outputs.status(done);
-  fmt::print(stderr, "soilbin: no condition of the study has a solution\n");
-  return failed;
+  return outputs.status(done);
 }
 
 int run(RunOptions options, const CLI::App& command, const Session& session) {
   SoilBinFlags& bin = options.soil_bin;
   if (options.converge) check_flags_of_converge(options);
-  options.csv.needs_a_file(!options.output.empty(), "--output");
   if (!bin.recorded.empty()) bin.recorded = find_record(session.place, options.study, bin.recorded);
   Case question = find_study(session.place, options.study);
   options.errors.apply(question);
@@ -262,11 +244,14 @@ void add_run(CLI::App& app, Session& session) {
       ->type_name("STUDY")
       ->required();
   command->add_option("--model", options->model, "only this model: bekker_wong or dem")->type_name("NAME");
-  add_plot(*command, options->plot, "draw the curves over slip, or over another condition that varies");
-  add_file(*command, "--csv", options->csv.file, "FILE.csv", "save the table");
-  add_decimal_comma(*command, options->csv);
+  options->outputs.add_to(*command, {.json = "the results as JSON, in SI",
+                                     .plot = "draw the curves over slip, or over another condition that varies",
+                                     .csv = "save the table"});
   add_folder(*command, "--output", options->output, "save the resolved case and the results", {"case.yaml"});
-  command->add_flag("--json", options->json, "the results as JSON, in SI");
+  command->parse_complete_callback([options] {
+    const OutputFlags& outputs = options->outputs;
+    outputs.csv.needs_a_file(!options->output.empty() || !outputs.markdown.empty(), "--output");
+  });
   command
       ->add_flag("--converge", options->converge,
                  "run one condition again with each numerical choice halved or doubled")

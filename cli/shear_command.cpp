@@ -8,7 +8,7 @@
 #include "cli/outputs.hpp"
 #include "compare/bevameter/plate_tests.hpp"
 #include "compare/doubts/plate_doubts.hpp"
-#include "compare/telling/shear_report.hpp"
+#include "compare/telling/reports.hpp"
 
 namespace soilbin::cli {
 namespace {

@@ -14,9 +14,9 @@
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/report/page.hpp"
-#include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/sweep/wheel_limits.hpp"
+#include "compare/telling/answer_report.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
 
@@ -116,8 +116,7 @@ std::vector<ServedAnswer> answers_to(const Setup& setup, const std::string& quer
 std::string title_of(const Case& question) { return in_words(question.scenario.tire); }
 
 std::string question_in_words(const Case& question) {
-  return in_words(question.scenario.tire) + " on " + compare::in_words(question.scenario.soil) + ", " +
-         compare::in_words(question.study.conditions.front());
+  return compare::asked_in_words(question) + ", " + compare::in_words(question.study.conditions.front());
 }
 
 /// What is said of a point without solution.

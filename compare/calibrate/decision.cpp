@@ -215,4 +215,8 @@ Decision decide(std::string campaign, std::vector<Setpoint> setpoints, std::vect
   return decision;
 }
 
+std::string candidate_name(std::size_t candidate) {
+  return fmt::format("({})", static_cast<char>('a' + static_cast<char>(candidate)));
+}
+
 }  // namespace soilbin::compare

@@ -69,4 +69,7 @@ struct Decision {
 Decision decide(std::string campaign, std::vector<Setpoint> setpoints, std::vector<std::vector<Answer>> answers,
                 double radius);
 
+/// "(a)" for the first.
+std::string candidate_name(std::size_t candidate);
+
 }  // namespace soilbin::compare

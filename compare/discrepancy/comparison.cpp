@@ -42,21 +42,16 @@ std::vector<Tally> tallies_of(const std::vector<Difference>& rows) {
   return all;
 }
 
-std::vector<std::string> gaps_of(const Comparison& comparison) {
-  std::vector<std::string> gaps;
-  for (const Side& side : comparison.sides) {
-    std::size_t missing = 0;
-    std::string first;
-    for (std::size_t i = 0; i < side.points.size(); ++i)
-      if (!side.points[i].result) {
-        if (missing++ == 0)
-          first = fmt::format("{}: {}", in_words(comparison.question.study.conditions[i]), side.points[i].error);
-      }
-    if (missing > 0)
-      gaps.push_back(
-          fmt::format("{} has no result at {} of {} conditions ({})", side.label, missing, side.points.size(), first));
+void add_sides_without_results(Comparison& comparison) {
+  for (std::size_t s = 0; s < comparison.sides.size(); ++s) {
+    const std::vector<SidePoint>& points = comparison.sides[s].points;
+    NotCompared missing{NotCompared::What::no_result, s};
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (!points[i].result) missing.conditions.push_back(i);
+    if (missing.conditions.empty()) continue;
+    missing.why = points[missing.conditions.front()].error;
+    comparison.not_compared.push_back(std::move(missing));
   }
-  return gaps;
 }
 
 /// Effects of a rig, of a tire that yields and of water: dry grains under a rigid wheel have none of them.
@@ -116,8 +111,7 @@ Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& c
     const std::vector<Difference> rows =
         differences(comparison.sides, side, reference, question.study.conditions, question.scenario.tire);
     if (rows.empty()) {
-      comparison.not_compared.push_back(fmt::format("{} and {} share no condition with a result",
-                                                    comparison.sides[side].label, comparison.sides[reference].label));
+      comparison.not_compared.push_back({NotCompared::What::no_shared_condition, side, reference});
       continue;
     }
     comparison.differences.insert(comparison.differences.end(), rows.begin(), rows.end());
@@ -129,14 +123,11 @@ Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& c
       outcome.test->side = side, outcome.test->reference = reference;
       comparison.joint.push_back(std::move(*outcome.test));
     } else {
-      comparison.not_compared.push_back(fmt::format("{} and {} have no test of all values at once: {}",
-                                                    comparison.sides[side].label, comparison.sides[reference].label,
-                                                    outcome.why_not));
+      comparison.not_compared.push_back({NotCompared::What::no_joint_test, side, reference, outcome.why_not});
     }
   }
   comparison.tallies = tallies_of(comparison.differences);
-  const std::vector<std::string> gaps = gaps_of(comparison);
-  comparison.not_compared.insert(comparison.not_compared.end(), gaps.begin(), gaps.end());
+  add_sides_without_results(comparison);
   return comparison;
 }
 
@@ -169,6 +160,16 @@ Campaign as_campaign(const Side& side, const Case& question) {
   campaign.force_frame = side.runs.front().at.force_frame;
   campaign.slip_by = side.runs.front().at.slip_by;
   return campaign;
+}
+
+std::optional<LoopOfComparison> ask_loop(const Comparison& comparison, const LoopOptions& options) {
+  const Side& reference = comparison.sides.back();
+  if (reference.kind == SideKind::analytic) return std::nullopt;
+  const Campaign campaign = as_campaign(reference, comparison.question);
+  LoopOfComparison loop;
+  if (reference.kind == SideKind::measured) loop.mistaken_columns = of_mistaken_columns(doubts_before_fit(campaign));
+  loop.answer = run_loop(campaign, options);
+  return loop;
 }
 
 namespace {

@@ -2,11 +2,12 @@
 //
 //   const std::vector<Side> sides = {side_of(analytic), side_of("dem", runs, question.study.conditions)};
 //   const Comparison comparison = compare_sides(question, {analytic.choice}, sides);
-//   for (const Clause& clause : summary(comparison)) fmt::print("{}\n", clause.text);  // summary.hpp
+//   for (const Clause& clause : summary(comparison)) fmt::print("{}\n", clause.text);  // telling/comparison_words.hpp
 #pragma once
 
 #include "compare/discrepancy/difference.hpp"
 #include "compare/discrepancy/side.hpp"
+#include "compare/loop/loop.hpp"
 #include "compare/sweep/varying.hpp"
 
 namespace soilbin::compare {
@@ -58,15 +59,23 @@ JointOutcome joint_test(const Side& reference, const Case& question, const Model
 /// approximation (Biometrika 61, 1974), which takes freedom > channels + 3.
 double trace_tail(double trace, double values, double channels, double freedom);
 
+/// A pair, or a side's conditions, that a comparison leaves out, and why.
+struct NotCompared {
+  enum class What { no_shared_condition, no_joint_test, no_result } what;
+  std::size_t side = 0, reference = 0;    ///< of no_result the side alone
+  std::string why{};                      ///< of no_joint_test; of no_result at the first such condition
+  std::vector<std::size_t> conditions{};  ///< of no_result
+};
+
 struct Comparison {
   Case question;
-  Curves curves;                          ///< the question's conditions, sorted against slip
-  std::vector<Side> sides;                ///< analytic first, then grains, then measured
-  std::vector<Difference> differences;    ///< by pair, channel, condition
-  std::vector<Tally> tallies;             ///< by pair, channel
-  std::vector<JointTest> joint;           ///< an analytic side against a reference each, where it can be made
-  std::vector<std::string> not_compared;  ///< why a side has no partner, or a condition no result
-  std::vector<ModelChoice> choices;       ///< of the analytic sides
+  Curves curves;                        ///< the question's conditions, sorted against slip
+  std::vector<Side> sides;              ///< analytic first, then grains, then measured
+  std::vector<Difference> differences;  ///< by pair, channel, condition
+  std::vector<Tally> tallies;           ///< by pair, channel
+  std::vector<JointTest> joint;         ///< an analytic side against a reference each, where it can be made
+  std::vector<NotCompared> not_compared;
+  std::vector<ModelChoice> choices;  ///< of the analytic sides
 };
 
 /// Sides have a point for each condition of the question. `choices`: of each analytic side, its model and effects, for
@@ -84,6 +93,14 @@ void check_soil_for_loop(const Soil& soil);
 /// measurement the runs that count in the comparison, as they were measured (setpoints, order, position, frame, slip);
 /// of grains or a model means_of. Throws as that.
 Campaign as_campaign(const Side& side, const Case& question);
+
+/// What the loop makes of the best reference of a comparison.
+struct LoopOfComparison {
+  LoopAnswer answer;
+  Doubts mistaken_columns;  ///< of the measurements that it took (of_mistaken_columns)
+};
+/// Measurements before grains; nothing where all sides are analytic. Throws NoSolution where the loop has no answer.
+std::optional<LoopOfComparison> ask_loop(const Comparison& comparison, const LoopOptions& options);
 
 /// Whether the pair sets a flexible tire (an analytic side whose effects read the inflation pressure) against the rigid
 /// one that grains meet.

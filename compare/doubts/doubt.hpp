@@ -102,7 +102,7 @@ std::vector<std::string> in_words(const Doubts& doubts);
 /// As the remark of a row, which names their condition and line; "" for none.
 std::string as_remark(const Doubts& doubts);
 
-/// Adds "warnings", the lines, and "warning_kinds", their words; neither where there are no doubts.
+/// Adds "warnings", the lines, and "warning_kinds", their words; neither where there are no doubts, or it has them.
 void add_warnings(nlohmann::ordered_json& document, const Doubts& doubts);
 
 }  // namespace soilbin::compare

@@ -336,7 +336,7 @@ std::string as_remark(const Doubts& doubts) {
 }
 
 void add_warnings(nlohmann::ordered_json& document, const Doubts& doubts) {
-  if (doubts.empty()) return;
+  if (doubts.empty() || (document.contains("warnings") && !document["warnings"].empty())) return;
   document["warnings"] = in_words(doubts);
   for (const Doubt& doubt : doubts) document["warning_kinds"].push_back(kind_word(doubt.kind));
 }

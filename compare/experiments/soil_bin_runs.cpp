@@ -168,7 +168,7 @@ std::string relative_density_of(const std::vector<RecordedRun>& runs, const Soil
     }
   if (!(least <= most)) return "";
   const std::string low = fmt::format("{:.0f}", 100 * least), high = fmt::format("{:.0f}", 100 * most);
-  return fmt::format("relative density {} % (void ratios {:.3f} loosest, {:.3f} densest{})\n",
+  return fmt::format("relative density {} % (void ratios {:.3f} loosest, {:.3f} densest{})",
                      low == high ? low : low + " to " + high, limits->loosest, limits->densest,
                      low == high ? dem::beyond_limits(least) : "");
 }
@@ -184,13 +184,6 @@ std::optional<dem::StepCriteria> step_of(dem::DemSettings settings, const Case& 
     if (at.speed > 0 && std::abs(at.slip) < 1) fastest = std::max(fastest, dem::rim_speed(question.scenario.tire, at));
   if (!(fastest > 0)) return std::nullopt;
   return dem::step_criteria(dem::DemModel(settings).recipe(question.scenario), settings.rig, fastest);
-}
-
-std::string in_words(const dem::StepCriteria& step) {
-  return fmt::format(
-      "dem: time step {:.3g} s, {:.2g} of the Rayleigh time of {:.3g} s; an impact at the rim's {:.2g} m/s lasts "
-      "{:.3g} s, {:.0f} steps\n",
-      step.step, step.step / step.rayleigh, step.rayleigh, step.speed, step.hertz, step.hertz / step.step);
 }
 
 nlohmann::ordered_json to_json(const dem::StepCriteria& step) {

@@ -98,7 +98,6 @@ std::string relative_density_of(const std::vector<RecordedRun>& runs, const Soil
 /// long an impact lasts at the fastest rim; no value where none of the question's models is dem.
 std::optional<dem::StepCriteria> step_of(dem::DemSettings settings, const Case& question,
                                          const std::filesystem::path& record);
-std::string in_words(const dem::StepCriteria& step);
 nlohmann::ordered_json to_json(const dem::StepCriteria& step);
 
 /// The inputs of a run beside condition and packing.

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include "compare/calibrate/calibration_words.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/sweep/varying.hpp"
 #include "dem/rig/wheel_in_bin.hpp"

@@ -1,5 +1,5 @@
 // A failure map learnt, with all that is to be said of it: where the models agree, how well the map knows, what there
-// is to doubt. telling/failure_map_report.hpp tells it.
+// is to doubt. telling/failure_map_report.cpp tells it.
 //
 //   const FailureMapResult result = learn_map(map, grains, store, {.tolerance = 0.1});
 //   for (const AgreementClause& clause : result.clauses) clause.lower, clause.upper;

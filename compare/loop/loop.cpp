@@ -103,7 +103,7 @@ bool explains_better(const Attribution& second, const Attribution& first) {
 }
 
 /// The judgement of the attribution that decides, and the attribution beside it.
-struct Decision {
+struct Decided {
   Judgement judgement;
   std::optional<SecondAttribution> second;
 
@@ -124,7 +124,7 @@ struct Decision {
 /// An unknown effect may be the base model's own form: then effects can stand out that nothing but a change with load
 /// and slip, taken for another effect, had hidden. The attribution that explains the data better decides; the other is
 /// a note.
-Decision decide(Judgement first, const AttributionOptions& options) {
+Decided decide(Judgement first, const AttributionOptions& options) {
   if (first.verdict() != Verdict::unknown_effect) return {std::move(first), std::nullopt};
   auto beside = attribute_with_model_discrepancy(first.found, options);
   if (!beside) return {std::move(first), std::nullopt};
@@ -151,7 +151,7 @@ WithOutliers keep_outliers(const Campaign& campaign, const Observations& observa
 
 /// What only the attribution that does not decide leaves. An exact base model's sets always: an effect of load and slip
 /// alone looks like what the other one lets go. The other one's where it explains the data nearly as well.
-std::vector<WeightedSet> alternative_sets(const Decision& decision, const std::vector<WeightedSet>& listed) {
+std::vector<WeightedSet> alternative_sets(const Decided& decision, const std::vector<WeightedSet>& listed) {
   const std::optional<SecondAttribution>& second = decision.second;
   if (!decision.found().candidates.best || !second->alternative.candidates.best) return {};
   const double behind = evidence_of_best(decision.found()) - evidence_of_best(second->alternative);
@@ -170,7 +170,7 @@ std::vector<Dependence> dependences_of(const FittedModel& model, std::uint64_t s
 }
 
 /// Learned effects for what named ones do not explain.
-std::vector<LearnedEffect> learned_beside(const FittedModel& base, const Decision& decision,
+std::vector<LearnedEffect> learned_beside(const FittedModel& base, const Decided& decision,
                                           const AttributionOptions& options) {
   if (decision.judgement.verdict() != Verdict::unknown_effect) return {};
   return learn_effects(decision.exact_model(base), options);
@@ -210,7 +210,7 @@ struct Validated {
   bool uses_candidate = false;  ///< its effects are accepted, or proxies that predict better
 };
 
-Validated validate(const FittedModel& base, const Decision& decision, std::vector<LearnedEffect> learned,
+Validated validate(const FittedModel& base, const Decided& decision, std::vector<LearnedEffect> learned,
                    const LoopOptions& options, LoopProgress& progress) {
   NoiseFloor noise = decision.noise();
   CrossValidation errors;
@@ -233,7 +233,7 @@ Validated validate(const FittedModel& base, const Decision& decision, std::vecto
   return {std::move(noise), std::move(errors), std::move(learned), uses_candidate};
 }
 
-Validated learn_and_validate(const FittedModel& base, const Decision& decision, const LoopOptions& options,
+Validated learn_and_validate(const FittedModel& base, const Decided& decision, const LoopOptions& options,
                              const AttributionOptions& whole, LoopProgress& progress) {
   std::vector<LearnedEffect> learned = learned_beside(base, decision, whole);
   progress.choice_made();
@@ -287,7 +287,7 @@ struct Stages {
   const Observations& given;
   const FittedModel& base;
   std::vector<std::string> not_testable;
-  Decision decision;
+  Decided decision;
   Validated validated;
 };
 
@@ -309,11 +309,12 @@ WithCandidates with_candidates(const Stages& made, const FittedModel& saved, con
 UnknownEffect unknown_effect(Stages& made, WithCandidates with, const AttributionOptions& options) {
   std::optional<SecondAttribution>& second = made.decision.second;
   if (second) second->sets = alternative_sets(made.decision, with.ambiguity_set);
-  UnknownEffect unknown{std::move(with), {}, std::move(made.validated.learned), {}, std::move(second)};
+  UnknownEffect unknown{std::move(with),  made.validated.uses_candidate, {}, std::move(made.validated.learned), {},
+                        std::move(second)};
   if (!unknown.learned.empty()) {
     unknown.proxy_effects = effects_of(unknown.learned.back().candidate);
     unknown.formula = find_formula(made.decision.exact_model(made.base), unknown.learned.front(), options);
-  } else if (made.validated.uses_candidate) {
+  } else if (unknown.uses_candidate) {
     unknown.proxy_effects = effects_of(made.decision.found().best());
   }
   return unknown;
@@ -368,7 +369,7 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   const FittedModel base = fit_base(campaign, observations, whole);
   Judgement first = judge(attribute(base, whole), whole);
   std::vector<std::string> hidden = not_testable(first.found);
-  Decision decision = decide(std::move(first), whole);
+  Decided decision = decide(std::move(first), whole);
   if (decision.judgement.verdict() == Verdict::not_enough_data) {
     LoopAnswer answer = answer_on(decision.found().base, observations, std::move(hidden));
     answer.judged = std::move(decision.judgement);

@@ -14,7 +14,7 @@
 //       find_formula     a few terms in the place of one                attribution/learned_formula.hpp
 //   6 cross_validate     -> CrossValidation: honest errors              attribution/validation.hpp
 //   7 next_test          -> NextRun                                    test_design/next_run.hpp
-//   8 LoopAnswer; as JSON, sentences, page, saved model                 answer_words.hpp
+//   8 LoopAnswer, and what it implies                                   findings.cpp; told by telling/loop_report.hpp
 #pragma once
 
 #include <map>
@@ -102,6 +102,9 @@ struct EffectFound : WithCandidates {
 };
 
 struct UnknownEffect : WithCandidates {
+  /// Whether the effects of the best candidate are among the proxies: conditions left out are predicted better with
+  /// them.
+  bool uses_candidate = false;
   /// The best named effects, where conditions left out are predicted better with them, then the learned ones. They are
   /// in the model that is saved in place of the unknown effect, and explain nothing.
   std::vector<AcceptedEffect> proxy_effects;
@@ -168,6 +171,43 @@ struct LoopAnswer {
 
 /// Ids of some effects.
 std::set<std::string> ids_of(const std::vector<AcceptedEffect>& effects);
+
+/// Sets worth showing: those that compete, then those that stand next.
+std::vector<const WeightedSet*> sets_shown(const LoopAnswer& answer);
+
+/// The forms of a candidate's effects, in the order of its ids.
+std::vector<std::string> forms_in_order(const CandidateModel& candidate);
+
+/// Whether a held-out error is larger with the effects than without, or smaller, by more than its third digit.
+bool rises(const HeldOutErrors& error);
+bool falls(const HeldOutErrors& error);
+
+/// The channels whose held-out error rises with the effects that the answer's model takes (Channel); none where it
+/// takes none.
+std::vector<int> worse_channels(const LoopAnswer& answer);
+
+/// Whether the run of LoopAnswer::next is worth making: not where the sets that it decides between are a hundred to one
+/// apart already and neither explains the data.
+bool proposes_next(const LoopAnswer& answer);
+
+/// Names of the conditions of the next run that lie outside what was run, and for which no limit of the rig is given.
+std::vector<std::string> beyond_what_is_known(const NextRun& next);
+
+/// Of what the saved model leaves, or the base model where there is no other.
+const std::vector<Dependence>& dependences_left(const LoopAnswer& answer);
+
+/// At an unknown effect: what the residual depends on (dependences_left), surest first, as many as keep the
+/// false-discovery rate at 5 %.
+std::vector<Dependence> sure_dependences(const LoopAnswer& answer);
+
+/// Where an unknown effect depends on a condition (sure_dependences), runs that show how, with that condition alone
+/// at five settings over the range that was run, all else as in the run that the model misses most. Empty where none is
+/// known.
+std::vector<OperatingCondition> shape_series(const LoopAnswer& answer);
+
+/// A condition of a run to be made as the rig would be set to it (rig_setting) [SI]; not a number where it is not
+/// known.
+double rig_setting_of(const LoopAnswer& answer, const OperatingCondition& at, const std::string& condition);
 
 /// Runs the loop. Throws InputError for a campaign that can't be used; a campaign too small to say anything is a
 /// verdict, not an error.

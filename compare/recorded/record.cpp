@@ -201,17 +201,6 @@ bool looked_at(const std::string& name, const std::vector<std::string>& only) {
   return only.empty() || std::ranges::any_of(only, [&](const std::string& begin) { return name.starts_with(begin); });
 }
 
-/// Void ratios of the beds that tell it, from the densest to the loosest.
-std::string density_of_beds(const std::vector<RecordedRun>& runs) {
-  double densest = std::numeric_limits<double>::infinity(), loosest = 0;
-  for (const RecordedRun& run : runs)
-    if (std::isfinite(run.bed.void_ratio))
-      densest = std::min(densest, run.bed.void_ratio), loosest = std::max(loosest, run.bed.void_ratio);
-  if (loosest == 0) return "";
-  const std::string low = fmt::format("{:.3f}", densest), high = fmt::format("{:.3f}", loosest);
-  return fmt::format("bed: void ratio {}\n", low == high ? low : low + " to " + high);
-}
-
 /// Older records hold the force in the wheel's plane times the speed of travel where forces are told in the wheel's
 /// axes.
 void mend_efficiencies(Record& record) {
@@ -359,21 +348,6 @@ void add_missing_runs(Record& record, const Record& other) {
     for (const RecordedRun& run : other.list(half))
       if (find_run(record, {run.answer.at, run.packing, half}) == nullptr) record.list(half).push_back(run);
   put_in_order(record);
-}
-
-std::string notes_on(const std::vector<RecordedRun>& runs) {
-  std::string notes;
-  double seconds = 0;
-  for (const RecordedRun& run : runs) {
-    seconds += run.seconds;
-    if (run.answer.result && !run.steady)
-      notes +=
-          fmt::format("not steady at {}{} (drift {:.3g} standard errors): lengthen the run\n", in_words(run.answer.at),
-                      run.packing == 1 ? "" : fmt::format(", bed sample {}", run.packing), run.drift);
-  }
-  if (runs.empty()) return "";
-  return notes + density_of_beds(runs) +
-         fmt::format("dem: {} run{}, {:.0f} s in all\n", runs.size(), runs.size() == 1 ? "" : "s", seconds);
 }
 
 }  // namespace soilbin::compare

@@ -107,7 +107,4 @@ void add_missing_runs(Record& record, const Record& other);
 /// The run of a record that answers a spec; nullptr where there is none.
 const RecordedRun* find_run(const Record& record, const RunSpec& spec);
 
-/// Notes on runs beside their results: which did not become steady, how far packings differ, what it cost.
-std::string notes_on(const std::vector<RecordedRun>& runs);
-
 }  // namespace soilbin::compare

@@ -149,19 +149,7 @@ void Page::describe(const std::string& text) {
   if (description_.empty()) description_ = text;
 }
 
-void Page::summary(const std::vector<std::pair<std::string, std::string>>& sentences) {
-  std::vector<BackedSentence> bare;
-  for (const auto& [about, text] : sentences) bare.push_back({about, text});
-  backed_summary(bare);
-}
-
-void Page::sentences(const std::vector<std::string>& sentences) {
-  std::vector<BackedSentence> unnamed;
-  for (const std::string& sentence : sentences) unnamed.push_back({"", sentence});
-  backed_summary(unnamed);
-}
-
-void Page::backed_summary(const std::vector<BackedSentence>& sentences) {
+void Page::summary(const std::vector<BackedSentence>& sentences) {
   if (!sentences.empty()) describe(sentences.front().text);
   body_ += "<div class=\"summary\">";
   for (const BackedSentence& sentence : sentences) {
@@ -201,21 +189,7 @@ void Page::list(const std::vector<std::string>& items) {
   body_ += "</ul>\n";
 }
 
-void Page::doubts(const std::vector<std::string>& doubts) {
-  if (doubts.empty()) return;
-  section("Warnings", "doubts");
-  list(doubts);
-}
-
 void Page::table(const Table& table) { body_ += html_of(table); }
-
-void Page::facts(const std::vector<std::string>& header,
-                 const std::vector<const std::vector<std::pair<std::string, std::string>>*>& lists) {
-  Table all{"", header, {true, true}};
-  for (const auto* list : lists)
-    for (const auto& [name, value] : *list) all.add({name, value});
-  table(all);
-}
 
 void Page::figure(const Sheet& sheet, const std::string& caption) {
   sheets_.push_back(sheet);

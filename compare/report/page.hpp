@@ -69,11 +69,9 @@ class Page {
  public:
   Page(std::string title, std::string subtitle);
 
-  /// Plain-words sentences in a box, each behind the name of what it is about (or "").
-  void summary(const std::vector<std::pair<std::string, std::string>>& sentences);
-  void sentences(const std::vector<std::string>& sentences);
-  /// The same, each sentence followed by links to what backs it: (anchor of this page, text).
-  void backed_summary(const std::vector<BackedSentence>& sentences);
+  /// Plain-words sentences in a box, each behind the name of what it is about (or "") and followed by links to what
+  /// backs it.
+  void summary(const std::vector<BackedSentence>& sentences);
   void figures_at_a_glance(const std::vector<KeyFigure>& figures);
   /// A heading with an anchor; the page's table of contents lists it.
   void section(const std::string& title, const std::string& anchor = "");
@@ -82,12 +80,7 @@ class Page {
   void subsection(const std::string& title);
   void paragraph(const std::string& text);
   void list(const std::vector<std::string>& items);
-  /// A section of what is doubtful in what the page tells (compare/doubts/doubts.hpp); none where there is nothing.
-  void doubts(const std::vector<std::string>& doubts);
   void table(const Table& table);
-  /// Names and their values, list after list.
-  void facts(const std::vector<std::string>& header,
-             const std::vector<const std::vector<std::pair<std::string, std::string>>*>& lists);
   /// The sheet's panels side by side as the width allows, its legend above them, a caption below.
   void figure(const Sheet& sheet, const std::string& caption);
   /// A drawing of its own, an <svg> element, with a caption.

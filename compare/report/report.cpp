@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
-#include "compare/report/markdown.hpp"
+#include "scenario/atomic_file.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -22,7 +25,11 @@ class TerminalWriter {
  public:
   void block(const std::string& text) { add(text, true); }
   void lines(const std::vector<std::string>& lines) {
-    for (const std::string& line : lines) add(line + "\n", &line == &lines.front());
+    if (!lines.empty()) block(fmt::format("{}\n", fmt::join(lines, "\n")));
+  }
+  void tell(const Headline& headline) {
+    for (const BackedSentence& one : headline.all)
+      block(fmt::format("{}. {}\n{}{}", one.about, one.text, one.detail, one.detail.empty() ? "" : "\n"));
   }
   void tell(const Sentences& sentences) {
     for (const BackedSentence& one : sentences.all)
@@ -31,9 +38,7 @@ class TerminalWriter {
   void tell(const Prose& prose) {
     for (const std::string& paragraph : prose.paragraphs) add(paragraph + "\n", false);
   }
-  void tell(const Items& items) {
-    for (const std::string& item : items.all) add(item + "\n", false);
-  }
+  void tell(const Items& items) { lines(items.all); }
   void tell(const NamedValues& values) {
     std::size_t longest = 0;
     for (const auto& [name, value] : values.all) longest = std::max(longest, name.size());
@@ -72,14 +77,18 @@ class PageWriter {
     }
   }
   void tell(const Sentences& sentences) {
-    if (!sentences.all.empty()) page_.backed_summary(sentences.all);
+    if (!sentences.all.empty()) page_.summary(sentences.all);
   }
+  void tell(const Headline& headline) { page_.summary(headline.all); }
   void tell(const Prose& prose) {
     for (const std::string& paragraph : prose.paragraphs) page_.paragraph(paragraph);
   }
   void tell(const Items& items) { page_.list(items.all); }
   void tell(const NamedValues& values) { page_.table(table_of(values)); }
-  void tell(const Table& table) { page_.table(table); }
+  void tell(const Table& table) {
+    page_.table(table);
+    if (!table.legend.empty()) page_.paragraph(table.legend);
+  }
   void tell(const Code& code) { page_.code(code.text); }
   void tell(const KeyFigures& figures) { page_.figures_at_a_glance(figures.all); }
   void tell(const Figure& figure) {
@@ -98,9 +107,14 @@ class PageWriter {
     for (const auto& [name, parts] : choices.all) all.push_back({name, [this, &parts = parts] { tell(parts()); }});
     page_.choices(choices.what, all, choices.first);
   }
+  void tell(const Cards& cards) { page_.cards(cards.all); }
   void tell(const ReplayView& replay) { page_.replay(replay.title, replay.bytes, replay.caption); }
   void tell(const Html& html) { page_.raw(html.text); }
-  void tell(const WarningsHere&) { page_.doubts(doubts_); }
+  void tell(const WarningsHere&) {
+    if (doubts_.empty()) return;
+    page_.section("Warnings", "doubts");
+    page_.list(doubts_);
+  }
   Page& page() { return page_; }
 
  private:
@@ -114,9 +128,32 @@ class PageWriter {
   const std::vector<std::string>& doubts_;
 };
 
-class MarkdownWriter : public MarkdownFolder {
+/// A cell or a sentence that can't be taken for markup.
+std::string plain(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '|' || c == '<' || c == '*' || c == '_' || c == '\\' || c == '`') out += '\\';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out;
+}
+
+/// Markdown that grows from top to bottom in a folder, which is made, with its figures and their data beside it.
+class MarkdownWriter {
  public:
-  using MarkdownFolder::MarkdownFolder;
+  MarkdownWriter(std::filesystem::path folder, bool decimal_comma)
+      : folder_(std::move(folder)), decimal_comma_(decimal_comma) {
+    make_folder(folder_);
+  }
+
+  /// A paragraph, as it is.
+  void text(const std::string& paragraph) { body_ += paragraph + "\n\n"; }
+  void file(const std::string& name, const std::string& text) const { write_file_atomically(folder_ / name, text); }
+  void csv(const std::string& name, const std::string& text) const {
+    file(name + ".csv", decimal_comma_ ? with_decimal_commas(text) : text);
+  }
+  /// Writes report.md.
+  void write() const { file("report.md", body_); }
 
   void tell(const std::vector<ReportPart>& parts) {
     for (const ReportPart& part : parts) {
@@ -130,14 +167,30 @@ class MarkdownWriter : public MarkdownFolder {
     for (const BackedSentence& one : sentences.all)
       text(fmt::format("- {}{}", one.about.empty() ? "" : "**" + plain(one.about) + ".** ", plain(one.text)));
   }
+  void tell(const Headline& headline) {
+    for (const BackedSentence& one : headline.all)
+      text(fmt::format("- **{}.** {} {}", plain(one.about), plain(one.text), plain(one.detail)));
+  }
   void tell(const Prose& prose) {
     for (const std::string& paragraph : prose.paragraphs) text(plain(paragraph));
   }
   void tell(const Items& items) {
     for (const std::string& item : items.all) text("- " + plain(item));
   }
-  void tell(const NamedValues& values) { table(table_of(values)); }
-  void tell(const Table& one) { table(one); }
+  void tell(const NamedValues& values) { tell(table_of(values)); }
+  void tell(const Table& table) {
+    if (!table.caption.empty()) body_ += plain(table.caption) + ".\n\n";
+    std::string rule = "|";
+    for (std::size_t c = 0; c < table.header.size(); ++c) rule += table.is_text(c) ? ":--|" : "--:|";
+    for (const std::vector<std::string>& line : lines_of(table)) {
+      body_ += "|";
+      for (const std::string& cell : line) body_ += " " + plain(cell) + " |";
+      body_ += "\n" + rule + (rule.empty() ? "" : "\n");
+      rule.clear();
+    }
+    body_ += "\n";
+    if (!table.legend.empty()) text(plain(table.legend));
+  }
   void tell(const Code& code) { text("```\n" + code.text + "```"); }
   void tell(const KeyFigures& figures) {
     for (const KeyFigure& one : figures.all) text(fmt::format("- {}: {}", plain(one.meaning), plain(one.value)));
@@ -161,6 +214,22 @@ class MarkdownWriter : public MarkdownFolder {
 
  private:
   std::string next_name() { return fmt::format("figure-{}", ++figures_); }
+  /// A drawing NAME.svg, NAME.csv and NAME.json with its numbers, and links to them; nothing for a sheet without plots.
+  void figure(const std::string& name, const Sheet& sheet) {
+    if (sheet.plots.empty()) return;
+    picture(name, svg(sheet), sheet.title.empty() ? name : sheet.title);
+    csv(name, sheet_csv(sheet));
+    file(name + ".json", json_text(to_json(sheet)));
+    body_ += fmt::format("Data: [CSV]({0}.csv), [JSON]({0}.json).\n\n", name);
+  }
+  void picture(const std::string& name, const std::string& drawing, const std::string& title) {
+    file(name + ".svg", drawing);
+    body_ += fmt::format("![{}]({}.svg)\n\n", plain(title), name);
+  }
+
+  std::filesystem::path folder_;
+  bool decimal_comma_;
+  std::string body_;
   int figures_ = 0;
 };
 
@@ -171,13 +240,21 @@ std::vector<ReportPart> with_warnings(std::vector<ReportPart> parts) {
   };
   if (std::ranges::any_of(parts, is_a(WarningsHere()))) return parts;
   const auto first = std::ranges::find_if(parts, [&](const ReportPart& part) {
-    return holds(part.told, Told::on_pages) && std::holds_alternative<Sentences>(part.content);
+    return holds(part.told, Told::on_pages) &&
+           (std::holds_alternative<Sentences>(part.content) || std::holds_alternative<Headline>(part.content));
   });
   parts.insert(first == parts.end() ? first : first + 1, {WarningsHere()});
   return parts;
 }
 
 }  // namespace
+
+std::function<Sheet()> drawn_once(std::function<Sheet()> draw) {
+  return [draw = std::move(draw), drawn = std::make_shared<std::optional<Sheet>>()] {
+    if (!*drawn) *drawn = draw();
+    return **drawn;
+  };
+}
 
 std::string text_of(const Report& report) {
   TerminalWriter text;
@@ -201,7 +278,10 @@ std::string page_of(const Report& report, const PageAbout& about) {
   page.section("How to repeat this", "repeat");
   page.code(about.command);
   if (!report.notes.empty()) page.list(report.notes);
-  page.facts({"part", ""}, {&report.made_of, &about.versions});
+  Table facts{"", {"part", ""}, {true, true}};
+  for (const auto* list : {&report.made_of, &about.versions})
+    for (const auto& [name, value] : *list) facts.add({name, value});
+  page.table(facts);
   if (!report.resolved_case.empty()) page.folded("The resolved case", [&] { page.code(report.resolved_case); });
   return page.html();
 }

@@ -50,6 +50,10 @@ struct Sentences {
     for (const auto& [about, text] : named) all.push_back({about, text});
   }
 };
+/// What an answer opens with: on a terminal a paragraph each, with its details.
+struct Headline {
+  std::vector<BackedSentence> all;
+};
 /// Running text; on a terminal a line each.
 struct Prose {
   std::vector<std::string> paragraphs;
@@ -99,6 +103,10 @@ struct Choices {
   std::size_t first = 0;
   bool all_in_documents = true;  ///< else Markdown tells the first alone
 };
+/// Links to other pages, with their drawings.
+struct Cards {
+  std::vector<PageCard> all;
+};
 /// A replay to look at in 3D: Page::replay.
 struct ReplayView {
   std::string title, bytes, caption;
@@ -110,8 +118,8 @@ struct Html {
 /// Where the doubts stand that the command has found; without it behind the first sentences.
 struct WarningsHere {};
 
-using ReportContent = std::variant<Sentences, Prose, Items, NamedValues, Table, Code, KeyFigures, Figure, Drawings,
-                                   Fold, Choices, ReplayView, Html, WarningsHere>;
+using ReportContent = std::variant<Sentences, Headline, Prose, Items, NamedValues, Table, Code, KeyFigures, Figure,
+                                   Drawings, Fold, Choices, Cards, ReplayView, Html, WarningsHere>;
 
 struct ReportPart {
   ReportContent content;
@@ -131,8 +139,9 @@ struct Report {
   /// Made when asked for, while the answer is there; empty: it has none.
   std::function<nlohmann::ordered_json()> data{};  ///< in SI
   std::function<std::string()> csv{};
-  std::function<Sheet()> sheet{};                     ///< its one drawing
+  std::function<Sheet()> sheet{};                     ///< its one drawing (drawn_once)
   std::string data_name = "data", csv_name = "data";  ///< of .json and .csv beside its Markdown
+  std::string no_answer{};                            ///< why it has none: the last line on standard error; else ""
 
   void add(ReportContent content, Told told = Told::everywhere) { parts.push_back({std::move(content), told}); }
   /// Below a heading, which the contents of a page list.
@@ -140,6 +149,9 @@ struct Report {
     parts.push_back({std::move(content), told, std::move(section), std::move(anchor)});
   }
 };
+
+/// Calls `draw` when it is first asked for: a report's drawing is saved by itself and stands on its page.
+std::function<Sheet()> drawn_once(std::function<Sheet()> draw);
 
 /// The heading, the parts and the notes, with blank lines around tables.
 std::string text_of(const Report& report);

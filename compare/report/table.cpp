@@ -137,7 +137,8 @@ std::vector<std::vector<std::string>> lines_of(const Table& table) {
 }
 
 std::string as_text(const Table& table) {
-  return (table.caption.empty() ? "" : table.caption + "\n") + aligned(lines_of(table));
+  return (table.caption.empty() ? "" : table.caption + "\n") + aligned(lines_of(table)) +
+         (table.legend.empty() ? "" : table.legend + "\n");
 }
 
 std::string html_of(const Table& table) {

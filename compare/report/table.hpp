@@ -34,8 +34,9 @@ struct Table {
   std::vector<std::string> header;
   std::vector<bool> text_columns{};  ///< columns set to the left; empty: the first alone
   std::vector<std::vector<TableCell>>
-      rows{};           ///< each as long as the header; of one cell: a line across, in text alone
-  bool marked = false;  ///< a page draws it wider, with the marks of its cells
+      rows{};            ///< each as long as the header; of one cell: a line across, in text alone
+  bool marked = false;   ///< a page draws it wider, with the marks of its cells
+  std::string legend{};  ///< below it: what its columns mean
 
   void add(std::vector<TableCell> row) { rows.push_back(std::move(row)); }
   bool is_text(std::size_t column) const {

@@ -340,13 +340,27 @@ Json steps_json(const std::vector<Step>& steps) {
 
 }  // namespace
 
-Json to_json(const Explanation& explanation, const ModelChoice& choice, const OperatingCondition& at) {
-  Json row = {{"model", "bekker_wong"}, {"label", choice.label}};
-  row.update(to_json(Answer{at, explanation.result, ""}));
-  row["steps"] = steps_json(explanation.steps);
-  row["effects"] = steps_json(explanation.effects);
-  row["cross_checks"] = steps_json(explanation.cross_checks);
-  return row;
+std::vector<Explained> explain(const Case& question) {
+  std::vector<Explained> all;
+  for (const ModelChoice& choice : question.study.models) {
+    if (choice.model != ModelKind::bekker_wong) make_model(choice.model);
+    const Scenario scenario = seen_by(choice, question.scenario);
+    for (const OperatingCondition& at : question.study.conditions) all.push_back({choice, at, explain(scenario, at)});
+  }
+  return all;
+}
+
+Json rows_json(const std::vector<Explained>& explained) {
+  Json rows = Json::array();
+  for (const Explained& one : explained) {
+    Json row = {{"model", "bekker_wong"}, {"label", one.choice.label}};
+    row.update(to_json(Answer{one.at, one.why.result, ""}));
+    row["steps"] = steps_json(one.why.steps);
+    row["effects"] = steps_json(one.why.effects);
+    row["cross_checks"] = steps_json(one.why.cross_checks);
+    rows.push_back(std::move(row));
+  }
+  return rows;
 }
 
 Table forces_table(const TractionResult& result) {

@@ -27,11 +27,21 @@ struct Explanation {
   std::vector<Step> cross_checks;  ///< closed forms that need no balance
 };
 
+/// One condition of a question, by one of its models.
+struct Explained {
+  ModelChoice choice;
+  OperatingCondition at;
+  Explanation why;
+};
+
 /// Explains one condition. Throws InputError and NoSolution as the model does.
 Explanation explain(const Scenario& scenario, const OperatingCondition& at);
 
-/// A row of soilbin-explain/1: the answer, then its equations, effects and closed forms.
-Json to_json(const Explanation& explanation, const ModelChoice& choice, const OperatingCondition& at);
+/// Every condition of a question by every model. Throws InputError for a model that has no equations.
+std::vector<Explained> explain(const Case& question);
+
+/// Rows of soilbin-explain/1: the answer, then its equations, effects and closed forms.
+Json rows_json(const std::vector<Explained>& explained);
 
 /// The parts of the drawbar pull, their sum and the pull [N].
 Table forces_table(const TractionResult& result);

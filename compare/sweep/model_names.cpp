@@ -1,8 +1,6 @@
 #include "compare/sweep/model_names.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <functional>
 #include <stdexcept>
 
 #include "bekker_wong/effects/titles.hpp"
@@ -50,21 +48,6 @@ std::string model_in_words(const std::string& label) {
   for (std::size_t i = 1; i < parts.size(); ++i)
     words += (i == 1 ? " with " : i + 1 == parts.size() ? " and " : ", ") + effect_in_words(parts[i]);
   return words;
-}
-
-std::string models_in_words(std::string text, const std::vector<std::string>& labels) {
-  std::vector<std::string> longest_first = labels;
-  std::ranges::sort(longest_first, std::ranges::greater(), &std::string::size);
-  const auto in_a_word = [&](std::size_t at) {
-    return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_');
-  };
-  for (const std::string& label : longest_first) {
-    const std::string name = model_in_words(label);
-    if (label.empty() || name == label) continue;
-    for (std::size_t at = text.find(label); at != std::string::npos; at = text.find(label, at + 1))
-      if ((at == 0 || !in_a_word(at - 1)) && !in_a_word(at + label.size())) text.replace(at, label.size(), name);
-  }
-  return text;
 }
 
 std::vector<std::pair<std::string, std::string>> names_and_ids(const std::vector<std::string>& labels) {

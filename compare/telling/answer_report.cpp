@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <limits>
 #include <numeric>
 
 #include "compare/doubts/doubts.hpp"
@@ -14,6 +16,7 @@
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/result_json.hpp"
+#include "compare/sweep/sources.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/unit.hpp"
@@ -65,17 +68,6 @@ std::string only_load(const std::vector<OperatingCondition>& conditions) {
              : "";
 }
 
-/// "rover-wheel on dry-sand, load 65 N, slip 20 %": with what all conditions share.
-std::string title_of(const Case& question) {
-  std::string title = fmt::format("{} on {}", question.scenario.tire.name, in_words(question.scenario.soil));
-  const std::vector<OperatingCondition>& all = question.study.conditions;
-  if (const std::string load = only_load(all); !load.empty()) title += ", " + load;
-  const double slip = all.front().slip;
-  if (std::ranges::all_of(all, [&](const OperatingCondition& at) { return at.slip == slip; }))
-    title += fmt::format(", slip {:.4g} %", 100 * slip);
-  return title;
-}
-
 /// Of each model at its only condition.
 Sheet stresses_of(const std::vector<ModelAnswers>& study) {
   std::vector<LabelledPatch> patches;
@@ -97,7 +89,56 @@ std::string steps_text(const std::vector<Step>& steps) {
   return text;
 }
 
+std::string step_in_words(const dem::StepCriteria& step) {
+  return fmt::format(
+      "dem: time step {:.3g} s, {:.2g} of the Rayleigh time of {:.3g} s; an impact at the rim's {:.2g} m/s lasts "
+      "{:.3g} s, {:.0f} steps",
+      step.step, step.step / step.rayleigh, step.rayleigh, step.speed, step.hertz, step.hertz / step.step);
+}
+
+std::function<Sheet()> curves_of(const Case& question, const std::vector<ModelAnswers>& study) {
+  return drawn_once([&] {
+    Sheet sheet = plot_of_study(question, study);
+    sheet.title = title_of_question(question);
+    return sheet;
+  });
+}
+
 }  // namespace
+
+std::vector<std::string> notes_on(const std::vector<RecordedRun>& runs, const std::string& density) {
+  std::vector<std::string> notes;
+  if (runs.empty()) return notes;
+  double seconds = 0, densest = std::numeric_limits<double>::infinity(), loosest = 0;
+  for (const RecordedRun& run : runs) {
+    seconds += run.seconds;
+    if (run.answer.result && !run.steady)
+      notes.push_back(fmt::format("not steady at {}{} (drift {:.3g} standard errors): lengthen the run",
+                                  in_words(run.answer.at),
+                                  run.packing == 1 ? "" : fmt::format(", bed sample {}", run.packing), run.drift));
+    if (std::isfinite(run.bed.void_ratio))
+      densest = std::min(densest, run.bed.void_ratio), loosest = std::max(loosest, run.bed.void_ratio);
+  }
+  const std::string low = fmt::format("{:.3f}", densest), high = fmt::format("{:.3f}", loosest);
+  if (loosest > 0) notes.push_back("bed: void ratio " + (low == high ? low : low + " to " + high));
+  notes.push_back(fmt::format("dem: {} run{}, {:.0f} s in all", runs.size(), runs.size() == 1 ? "" : "s", seconds));
+  if (!density.empty()) notes.push_back(density);
+  return notes;
+}
+
+std::string asked_in_words(const Case& question) {
+  return fmt::format("{} on {}", tire_in_words(question), in_words(question.scenario.soil));
+}
+
+std::string title_of_question(const Case& question, bool with_slip) {
+  std::string title = fmt::format("{} on {}", question.scenario.tire.name, in_words(question.scenario.soil));
+  const std::vector<OperatingCondition>& all = question.study.conditions;
+  if (const std::string load = only_load(all); !load.empty()) title += ", " + load;
+  const double slip = all.front().slip;
+  if (with_slip && std::ranges::all_of(all, [&](const OperatingCondition& at) { return at.slip == slip; }))
+    title += fmt::format(", slip {:.4g} %", 100 * slip);
+  return title;
+}
 
 std::vector<PrintedValue> printed_values(const TractionResult& r) {
   std::vector<PrintedValue> all;
@@ -179,9 +220,14 @@ std::vector<ReportPart> study_parts(const std::vector<ModelAnswers>& study) {
 }
 
 Report report_on(const Case& question, const std::vector<ModelAnswers>& study) {
-  Report report{title_of(question), question.description,
-                fmt::format("{} on {}\n{}", tire_in_words(question), in_words(question.scenario.soil),
-                            errors_in_words(question))};
+  Report report{title_of_question(question), question.description};
+  report.sheet = curves_of(question, study);
+  report.csv = [&] { return study_csv(study, remarks_about(question.scenario)); };
+  if (!any_result(study)) {
+    report.no_answer = "no solution: " + study.front().answers.front().error;
+    return report;
+  }
+  report.heading = asked_in_words(question) + "\n" + errors_in_words(question);
   const bool several = question.study.conditions.size() > 1;
   if (const std::string load = only_load(question.study.conditions); several && !load.empty())
     report.add(Sentences(std::vector{load}), Told::on_terminals);
@@ -196,15 +242,24 @@ Report report_on(const Case& question, const std::vector<ModelAnswers>& study) {
   if (const std::string errors = errors_in_words(question); !errors.empty())
     report.add(Prose{{errors}}, Told::to_look_at);
   report.add(WarningsHere());
-  report.sheet = [&] {
-    Sheet sheet = plot_of_study(question, study);
-    sheet.title = title_of(question);
-    return sheet;
-  };
   if (several && curves_run_over(question.study.conditions) != nullptr)
     report.add("Curves", Figure(report.sheet, "Bands: one standard error."));
   if (!several) report.add("Stresses under the wheel", Figure([&] { return stresses_of(study); }, ""));
-  report.csv = [&] { return study_csv(study, remarks_about(question.scenario)); };
+  return report;
+}
+
+Report report_on(const Case& question, const StudyResults& results, const std::string& density) {
+  Report report{question.study.name, question.description, question.study.name + ": " + asked_in_words(question)};
+  if (const std::string errors = errors_in_words(question); !errors.empty())
+    report.heading += "\n" + errors;  // grains say beside their answer where theirs come from
+  if (results.step) report.heading += "\n" + step_in_words(*results.step);
+  report.parts = study_parts(results.study);
+  report.add(WarningsHere());
+  report.sheet = drawn_once([&] { return plot_of_study(question, results.study); });
+  if (curves_run_over(question.study.conditions) != nullptr)
+    report.add("Curves", Figure(report.sheet, "Bands: one standard error."));
+  report.notes = notes_on(results.runs, density);
+  if (!any_result(results.study)) report.no_answer = "no condition of the study has a solution";
   return report;
 }
 
@@ -221,14 +276,22 @@ std::string equations_text(const Explanation& explanation) {
   return text;
 }
 
-std::vector<ReportPart> explanation_parts(const ModelChoice& choice, const OperatingCondition& at,
-                                          const Explanation& explanation) {
-  std::vector<ReportPart> parts = answer_parts({choice, {}}, {at, explanation.result, ""});
-  Table forces = forces_table(explanation.result);
-  forces.caption = "Budget of forces along the drawbar pull";
-  parts.push_back({std::move(forces)});
-  parts.push_back({Code{equations_text(explanation)}});
-  return parts;
+Report report_on(const Case& question, const std::vector<Explained>& explained) {
+  const std::string heading = asked_in_words(question);
+  Report report{"Why: " + heading, question.description, heading};
+  for (const Explained& one : explained) {
+    for (ReportPart& part : answer_parts({one.choice, {}}, {one.at, one.why.result, ""}))
+      report.parts.push_back(std::move(part));
+    Table forces = forces_table(one.why.result);
+    forces.caption = "Budget of forces along the drawbar pull";
+    report.add(std::move(forces));
+    report.add(Code{equations_text(one.why)});
+  }
+  report.add(WarningsHere());
+  Table sources = sources_table(question.scenario);
+  sources.caption = "Where the values come from";
+  report.add(std::move(sources));
+  return report;
 }
 
 }  // namespace soilbin::compare

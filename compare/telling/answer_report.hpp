@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/experiments/study_results.hpp"
 #include "compare/report/report.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/explanation.hpp"
@@ -20,17 +21,33 @@ struct PrintedValue {
 /// What an answer says: four results with standard errors, efficiency, angles, budget.
 std::vector<PrintedValue> printed_values(const TractionResult& result);
 
+/// "tire radius 110 mm, width 100 mm on dry-sand": what was asked, as an answer's heading says it.
+std::string asked_in_words(const Case& question);
+
+/// "rover-wheel on dry-sand, load 65 N, slip 20 %": with the load and the slip that all conditions share; `with_slip`
+/// false: without.
+std::string title_of_question(const Case& question, bool with_slip = true);
+
 /// A table of each model, a line an answer, the conditions that vary in the first columns.
 std::vector<ReportPart> study_parts(const std::vector<ModelAnswers>& study);
 
-/// One answer in full, or a study_parts of several; curves, or the stresses under the wheel. Both outlive the report.
+/// One answer in full, or a study_parts of several; curves, or the stresses under the wheel. Where nothing is solved it
+/// says why, and no more. Both outlive the report.
 Report report_on(const Case& question, const std::vector<ModelAnswers>& study);
+
+/// On runs of grains, beside their results: which did not become steady, how dense their beds are (`density`:
+/// relative_density_of), what they cost.
+std::vector<std::string> notes_on(const std::vector<RecordedRun>& runs, const std::string& density);
+
+/// A study as study_parts, by grains too, with what their runs say of themselves; its curves. `density`: of their beds
+/// (relative_density_of). Both outlive the report.
+Report report_on(const Case& question, const StudyResults& results, const std::string& density);
 
 /// The equations with their values, the effects and the closed forms, each group under its heading.
 std::string equations_text(const Explanation& explanation);
 
-/// The answer, the budget of forces, the equations with the values put in, closed forms to check by.
-std::vector<ReportPart> explanation_parts(const ModelChoice& choice, const OperatingCondition& at,
-                                          const Explanation& explanation);
+/// Of each condition the answer, the budget of forces, the equations with the values put in, closed forms to check by;
+/// then where the values come from.
+Report report_on(const Case& question, const std::vector<Explained>& explained);
 
 }  // namespace soilbin::compare

@@ -1,12 +1,15 @@
-#include "compare/telling/bevameter_report.hpp"
-
+// What a virtual bevameter found in a soil's grains, as it is told; soilbin-bevameter/1.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "compare/bevameter/bevameter.hpp"
+#include "compare/experiments/virtual_bevameter.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/telling/reports.hpp"
+#include "scenario/soil.hpp"
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
@@ -76,7 +79,6 @@ Table values_table(const BevameterFit& fit, const Soil& soil) {
 
 Report report_on(const BevameterFit& fit, const BevameterReadings& readings, const Soil& soil, int packings) {
   const std::string title = "bevameter: " + soil.name;
-  const auto sheet = [=, &readings, &fit] { return bevameter_sheet(title, readings.plates, readings.shear, fit); };
   Report report{title, "Simulated plates and rings on the grains of a soil.",
                 fmt::format("{}, {} packings", title, packings)};
   report.add("Values", values_table(fit, soil));
@@ -86,9 +88,10 @@ Report report_on(const BevameterFit& fit, const BevameterReadings& readings, con
   left.push_back(fmt::format("Bekker's form misses the pressures by {} % (root mean square over mean)",
                              number(fit.pressure_error * 100)));
   report.add(Sentences(left));
-  report.add("Curves", Figure{sheet, "Points: simulated; lines: the fit."});
+  report.sheet =
+      drawn_once([=, &readings, &fit] { return bevameter_sheet(title, readings.plates, readings.shear, fit); });
+  report.add("Curves", Figure{report.sheet, "Points: simulated; lines: the fit."});
   report.data = [&soil, &fit, density = readings.density] { return bevameter_json(soil, fit, density); };
-  report.sheet = sheet;
   return report;
 }
 

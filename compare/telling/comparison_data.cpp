@@ -6,7 +6,6 @@
 #include "compare/discrepancy/causes.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_resolution.hpp"
-#include "compare/loop/answer_words.hpp"
 #include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
@@ -14,6 +13,7 @@
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/comparison_report.hpp"
 #include "compare/telling/comparison_words.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "scenario/mapping_writer.hpp"
 
 namespace soilbin::compare {
@@ -88,17 +88,6 @@ std::string remarks_of(const Comparison& comparison, const Difference& d) {
 }
 
 }  // namespace
-
-std::optional<LoopOfComparison> ask_loop(const Comparison& comparison, const LoopOptions& options) {
-  const Side& reference = comparison.sides.back();
-  if (reference.kind == SideKind::analytic) return std::nullopt;
-  const Campaign campaign = as_campaign(reference, comparison.question);
-  LoopOfComparison loop;
-  if (reference.kind == SideKind::measured)
-    loop.mistaken_columns = in_words(of_mistaken_columns(doubts_before_fit(campaign)));
-  loop.answer = run_loop(campaign, options);
-  return loop;
-}
 
 Json comparison_json(const Comparison& comparison, const ComparisonAbout& about) {
   const Study& study = comparison.question.study;

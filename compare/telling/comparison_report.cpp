@@ -8,12 +8,12 @@
 
 #include "compare/discrepancy/causes.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/loop/answer_words.hpp"
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/comparison_sheets.hpp"
 #include "compare/telling/comparison_tables.hpp"
 #include "compare/telling/comparison_words.hpp"
+#include "compare/telling/loop_report.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -195,20 +195,17 @@ void add_causes(Report& report, const Comparison& comparison) {
 }
 
 void add_loop(Report& report, const Comparison& comparison, const LoopOfComparison& loop) {
-  report.add(Sentences(backed(comparison, missing_clauses(loop.answer, loop.mistaken_columns))), Told::in_text);
+  report.add(Sentences(backed(comparison, missing_clauses(loop))), Told::in_text);
   report.add(
       "What the analytic model lacks",
       Prose{{fmt::format("The loop takes the results of '{}' as measured: it refits the soil within its declared "
                          "uncertainty, tests every known effect, and judges by cross-validation.",
                          loop.answer.campaign)}},
       Told::on_pages, "loop");
-  report.add(Sentences(headline(loop.answer, loop.mistaken_columns)), Told::on_pages);
+  report.add(Sentences(headline(loop.answer, in_words(loop.mistaken_columns))), Told::on_pages);
   for (Table& table : std::array{next_run_table(loop.answer), error_table(loop.answer), parameters_table(loop.answer)})
     if (!table.rows.empty()) report.add(std::move(table), Told::on_pages);
-  if (loop.answer.has_candidates()) {
-    report.add(candidates_table(loop.answer), Told::on_pages);
-    report.add(Prose{{candidates_columns_in_words()}}, Told::on_pages);
-  }
+  if (loop.answer.has_candidates()) report.add(candidates_table(loop.answer), Told::on_pages);
   report.add(Items{notes(loop.answer)}, Told::on_pages);
 }
 
@@ -219,7 +216,7 @@ void add_differences(Report& report, const Comparison& comparison) {
   report.add("Where they differ", std::move(maps), Told::to_look_at, "differ");
   for (const Tally& tally : comparison.tallies)
     report.add(Fold{fmt::format("Rows: {}, {} against {}", channel_views[tally.channel].title,
-                                comparison.sides[tally.side].label, comparison.sides[tally.reference].label),
+                                name_of(comparison.sides[tally.side]), name_of(comparison.sides[tally.reference])),
                     [&comparison, tally] { return Parts{{rows_table(comparison, tally)}}; }, rows_anchor(tally)});
 }
 
@@ -238,7 +235,7 @@ void add_replay(Report& report, const ReplayFile& file) {
 void add_method(Report& report, const Comparison& comparison, const LoopAnswer* loop) {
   report.add("Every point", Prose{}, Told::on_pages, "points");
   for (const Side& side : comparison.sides)
-    report.add(Fold{side.label, [&comparison, &side] { return Parts{{points_table(comparison, side)}}; }});
+    report.add(Fold{name_of(side), [&comparison, &side] { return Parts{{points_table(comparison, side)}}; }});
   report.add("How it is judged", Sentences(backed(comparison, limits_of_the_comparison(comparison))), Told::everywhere,
              "method");
   if (!comparison.joint.empty()) report.add(joint_table(comparison), Told::on_pages);
@@ -265,14 +262,7 @@ void add_method(Report& report, const Comparison& comparison, const LoopAnswer* 
 
 }  // namespace
 
-ToldComparison::ToldComparison(const Comparison& comparison, ComparisonAbout what)
-    : answered(comparison), about(std::move(what)), in_words(comparison) {
-  labels = label_sides_in_words(in_words);
-}
-
-Report report_on(const ToldComparison& told) {
-  const Comparison& comparison = told.in_words;
-  const ComparisonAbout& about = told.about;
+Report report_on(const Comparison& comparison, const ComparisonAbout& about) {
   const Scenario& scenario = comparison.question.scenario;
   const std::string tire = scenario.tire.name.empty() ? "A wheel" : scenario.tire.name;
   std::string errors = errors_in_words(scenario);
@@ -287,11 +277,13 @@ Report report_on(const ToldComparison& told) {
   add_differences(report, comparison);
   if (about.replay) add_replay(report, *about.replay);
   add_method(report, comparison, about.loop ? &about.loop->answer : nullptr);
-  report.made_of = names_and_ids(told.labels);
+  std::vector<std::string> labels;
+  for (const Side& side : comparison.sides) labels.push_back(side.label);
+  report.made_of = names_and_ids(labels);
   report.made_of.insert(report.made_of.end(), about.facts.begin(), about.facts.end());
   report.resolved_case = about.resolved_case;
-  report.data = [&told] { return comparison_json(told.answered, told.about); };
-  report.csv = [&told] { return differences_csv(told.answered); };
+  report.data = [&] { return comparison_json(comparison, about); };
+  report.csv = [&] { return differences_csv(comparison); };
   report.data_name = "comparison", report.csv_name = "differences";
   return report;
 }

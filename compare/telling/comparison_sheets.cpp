@@ -13,6 +13,7 @@
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/comparison_words.hpp"
 #include "scenario/estimate.hpp"
 #include "scenario/unit.hpp"
 
@@ -48,7 +49,7 @@ Series series_of(const Comparison& comparison, std::size_t side, const std::vect
                  const Reader& read, double per_unit) {
   const Side& one = comparison.sides[side];
   Series series;
-  series.label = one.label;
+  series.label = name_of(one);
   series.color = static_cast<int>(side);
   series.mark = mark_of(one.kind);
   bool sure = true;
@@ -90,7 +91,7 @@ void add_panel(Sheet& sheet, const Comparison& comparison, const std::vector<std
     const bool many = panel.smooth != nullptr && s < panel.smooth->sides.sides.size();
     Series series = many ? series_of(panel.smooth->sides, s, panel.smooth->members, panel.read, panel.per_si)
                          : series_of(comparison, s, members, panel.read, panel.per_si);
-    series.label = comparison.sides[s].label;
+    series.label = name_of(comparison.sides[s]);
     if (says_anything(series)) plot.series.push_back(std::move(series));
   }
   for (const Series& series : plot.series)  // the axis ends at what is possible, and cuts a band there
@@ -104,10 +105,10 @@ constexpr int single_color = 4, negative_color = 3;
 /// Whether a point of grains rests on one packing, so that nothing is known of the scatter between beds.
 bool of_one_packing(const SidePoint& point) { return point.result && point.runs == 1; }
 
-/// The side's label in a legend, with what limits all of its points.
+/// The side's name in a legend, with what limits all of its points.
 std::string label_with_limits(const Side& side, bool coarse_grains) {
-  if (side.kind != SideKind::grains) return side.label;
-  std::string label = side.label;
+  if (side.kind != SideKind::grains) return name_of(side);
+  std::string label = name_of(side);
   if (coarse_grains) label += ", coarse for the wheel";
   const bool single =
       std::ranges::all_of(side.points, [](const SidePoint& point) { return !point.result || of_one_packing(point); });
@@ -129,7 +130,8 @@ void mark_limits(Plot& plot, const Comparison& comparison, const std::vector<std
                  bool coarse_grains) {
   std::vector<Series> marks;
   for (const Side& side : comparison.sides) {
-    const auto series = std::ranges::find_if(plot.series, [&](const Series& one) { return one.label == side.label; });
+    const auto series =
+        std::ranges::find_if(plot.series, [&](const Series& one) { return one.label == name_of(side); });
     if (side.kind != SideKind::grains || series == plot.series.end()) continue;
     series->label = label_with_limits(side, coarse_grains);
     if (series->label.find("one bed sample") == std::string::npos)
@@ -150,7 +152,7 @@ Sheet overview_sheet(const Comparison& comparison, const Comparison& smooth) {
   for (std::size_t s = 0; s < comparison.sides.size(); ++s) {
     const Comparison& from = s < smooth.sides.size() ? smooth : comparison;
     const std::vector<SidePoint>& points = from.sides[s].points;
-    ModelAnswers answers{{ModelKind::bekker_wong, {}, comparison.sides[s].label}, {}};
+    ModelAnswers answers{{ModelKind::bekker_wong, {}, name_of(comparison.sides[s])}, {}};
     for (std::size_t i = 0; i < points.size(); ++i)
       answers.answers.push_back({from.question.study.conditions[i], points[i].result, points[i].error});
     study.push_back(std::move(answers));
@@ -231,7 +233,7 @@ Sheet stress_sheet(const Comparison& comparison, std::size_t condition) {
   std::vector<LabelledPatch> patches;
   for (std::size_t s = 0; s < comparison.sides.size(); ++s)
     if (const auto& result = comparison.sides[s].points[condition].result)
-      patches.push_back({comparison.sides[s].label, static_cast<int>(s), result->patch});
+      patches.push_back({name_of(comparison.sides[s]), static_cast<int>(s), result->patch});
   return patch_sheet("stresses at " + in_words(comparison.question.study.conditions[condition]), patches);
 }
 
@@ -245,7 +247,8 @@ HeatMap heat_map_of(const Comparison& comparison, const Tally& tally) {
   HeatMap map;
   map.title = fmt::format("{} [% of {}]", capital(std::string(channel_views[tally.channel].title)),
                           scale_in_words(channel_views[tally.channel]));
-  map.subtitle = fmt::format("{} less {}", comparison.sides[tally.side].label, comparison.sides[tally.reference].label);
+  map.subtitle =
+      fmt::format("{} less {}", name_of(comparison.sides[tally.side]), name_of(comparison.sides[tally.reference]));
   map.x_title = "slip [%]";
   map.y_title = curves.varying.empty() ? "curve" : curves.varying;
   for (const double slip : slips) map.x.push_back(fmt::format("{:.4g}", 100 * slip));
@@ -273,7 +276,7 @@ std::pair<Bars, std::vector<int>> budget_bars(const Comparison& comparison, std:
   Bars bars{"What pulls and what holds back [N]", {}, {}};
   std::vector<int> colors_of_sides;
   for (const std::size_t s : table.sides) {
-    bars.sides.push_back(comparison.sides[s].label);
+    bars.sides.push_back(name_of(comparison.sides[s]));
     colors_of_sides.push_back(static_cast<int>(s % colors(Palette::named).size()));
   }
   for (const BudgetRow& row : table.rows) bars.groups.push_back({part_in_words(row.name), row.force});

@@ -41,7 +41,7 @@ Table tally_table(const Comparison& comparison) {
   for (const Tally* t : widest_first(comparison)) {
     const Difference& worst = comparison.differences[t->worst];
     const std::string pair =
-        fmt::format("{} less {}", comparison.sides[t->side].label, comparison.sides[t->reference].label);
+        fmt::format("{} less {}", name_of(comparison.sides[t->side]), name_of(comparison.sides[t->reference]));
     if (!several) table.header[3] = "mean of " + pair;
     const Tone tone = t->unknown == t->values     ? Tone::none
                       : t->rms <= t->expected_rms ? Tone::good
@@ -96,14 +96,14 @@ Table matrix_table(const Comparison& comparison) {
                             [&](const Tally& t) { return t.channel == c && t.reference == baseline; }))
       channels.push_back(c);
   if (channels.size() * sides.size() > most_columns) channels.resize(1);
-  Table table{fmt::format("Baseline: {}. Change: model less baseline; * significant", sides[baseline].label),
+  Table table{fmt::format("Baseline: {}. Change: model less baseline; * significant", name_of(sides[baseline])),
               {"condition"},
               {true}};
   for (const std::size_t c : channels) {
     const std::string title(channel_views[c].title), unit = column_unit(comparison, c).first;
-    table.header.push_back(fmt::format("{} [{}], {}", title, unit, sides[baseline].label));
+    table.header.push_back(fmt::format("{} [{}], {}", title, unit, name_of(sides[baseline])));
     for (std::size_t s = 0; s < sides.size(); ++s)
-      if (s != baseline) table.header.push_back(fmt::format("change [{}], {}", unit, sides[s].label));
+      if (s != baseline) table.header.push_back(fmt::format("change [{}], {}", unit, name_of(sides[s])));
   }
   for (std::size_t i = 0; i < comparison.question.study.conditions.size(); ++i) {
     std::vector<TableCell> row = {in_words(comparison.question.study.conditions[i])};
@@ -123,9 +123,9 @@ Table matrix_table(const Comparison& comparison) {
 Table rows_table(const Comparison& comparison, const Tally& tally) {
   const ChannelView& channel = channel_views[tally.channel];
   Table table{fmt::format("{} [{}]: {} against {}; ± is one standard error", channel.title, channel.unit,
-                          comparison.sides[tally.side].label, comparison.sides[tally.reference].label),
-              {"condition", comparison.sides[tally.side].label, comparison.sides[tally.reference].label, "difference",
-               "scatter of a run", "share [%]", "in sigma", "finding"},
+                          name_of(comparison.sides[tally.side]), name_of(comparison.sides[tally.reference])),
+              {"condition", name_of(comparison.sides[tally.side]), name_of(comparison.sides[tally.reference]),
+               "difference", "scatter of a run", "share [%]", "in sigma", "finding"},
               {true, false, false, false, false, false, false, true}};
   for (const Difference& d : comparison.differences) {
     if (d.side != tally.side || d.reference != tally.reference || d.channel != tally.channel) continue;
@@ -143,7 +143,7 @@ Table rows_table(const Comparison& comparison, const Tally& tally) {
 }
 
 Table points_table(const Comparison& comparison, const Side& side) {
-  Table table{side.label,
+  Table table{name_of(side),
               {"condition", "drawbar pull [N]", "torque [N m]", "sinkage [mm]", "lateral force [N]", "runs",
                "scatter of the pull [N]", "warnings"},
               {true, false, false, false, false, false, false, true}};
@@ -165,7 +165,7 @@ Table points_table(const Comparison& comparison, const Side& side) {
 Table budget_table(const Comparison& comparison, std::size_t condition) {
   const BudgetTable budget = budget_at(comparison, condition);
   Table table{"Parts of the drawbar pull [N]; '-': not a part of this side", {"part"}, {true}};
-  for (const std::size_t s : budget.sides) table.header.push_back(comparison.sides[s].label);
+  for (const std::size_t s : budget.sides) table.header.push_back(name_of(comparison.sides[s]));
   for (const BudgetRow& row : budget.rows) {
     std::vector<TableCell> cells = {part_in_words(row.name)};
     for (const double force : row.force) cells.push_back(number(force));
@@ -193,9 +193,9 @@ Table sinkage_table(const Comparison& comparison) {
     if (!fresh && conditions[split.condition].slip > conditions[place->second.condition].slip) place->second = split;
   }
   for (const auto& [key, split] : last)
-    table.add({curves.labels[key.first].empty() ? "all" : curves.labels[key.first], comparison.sides[key.second].label,
-               number(1000 * split.at_rest), number(100 * conditions[split.condition].slip),
-               number(1000 * split.by_slip)});
+    table.add({curves.labels[key.first].empty() ? "all" : curves.labels[key.first],
+               name_of(comparison.sides[key.second]), number(1000 * split.at_rest),
+               number(100 * conditions[split.condition].slip), number(1000 * split.by_slip)});
   return table;
 }
 
@@ -204,8 +204,8 @@ Table joint_table(const Comparison& comparison) {
               {"side", "against", "values", "chi2, soil exact", "chi2", "freedom of the noise", "p-value"},
               {true, true}};
   for (const JointTest& test : comparison.joint)
-    table.add({comparison.sides[test.side].label, comparison.sides[test.reference].label, std::to_string(test.values),
-               number(test.chi2_soil_exact), number(test.chi2),
+    table.add({name_of(comparison.sides[test.side]), name_of(comparison.sides[test.reference]),
+               std::to_string(test.values), number(test.chi2_soil_exact), number(test.chi2),
                std::isinf(test.freedom) ? "known" : fmt::format("{:.0f}", test.freedom),
                test.p_value < 1e-300 ? "< 1e-300" : fmt::format("{:.2g}", test.p_value)});
   return table;

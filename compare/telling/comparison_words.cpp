@@ -10,10 +10,10 @@
 
 #include "compare/discrepancy/causes.hpp"
 #include "compare/doubts/grain_resolution.hpp"
-#include "compare/loop/answer_words.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
@@ -42,7 +42,7 @@ std::string counts(const Tally& t) {
 
 Clause tally_clause(const Comparison& comparison, const Tally& t) {
   const Difference& worst = comparison.differences[t.worst];
-  const std::string side = comparison.sides[t.side].label, reference = comparison.sides[t.reference].label;
+  const std::string side = name_of(comparison.sides[t.side]), reference = name_of(comparison.sides[t.reference]);
   Clause clause{std::string(channel_views[t.channel].title), "", {}, rows_of(comparison, t)};
   clause.text = fmt::format("{} less {}: {}", side, reference, counts(t));
   if (tires_differ(comparison, t.side, t.reference)) clause.text += std::string(unlike_tires) + " ";
@@ -59,8 +59,8 @@ Clause tally_clause(const Comparison& comparison, const Tally& t) {
 /// "the analytic wheel", "the grains", "the measurement": a side as the owner of a value.
 std::string in_a_sentence(const Side& side) {
   if (side.kind == SideKind::measured) return "the measurement";
-  const bool named = side.label.starts_with("analytic wheel") || side.label.starts_with("grains");
-  return named ? "the " + side.label : side.label;
+  const std::string name = name_of(side);
+  return name.starts_with("analytic wheel") || name.starts_with("grains") ? "the " + name : name;
 }
 
 /// "6.3 kN", "11.2 mm": to two or three digits.
@@ -83,7 +83,7 @@ double taken_by_the_soil(const JointTest& test) { return 1.0 - test.chi2 / test.
 constexpr double joint_level = 0.01;  // p below which more is left than noise
 
 Clause joint_clause(const Comparison& comparison, const JointTest& test) {
-  const std::string side = comparison.sides[test.side].label, reference = comparison.sides[test.reference].label;
+  const std::string side = name_of(comparison.sides[test.side]), reference = name_of(comparison.sides[test.reference]);
   Clause clause{"All together", "", {ClauseEvidence::joint_test}};
   const std::string p = test.p_value < 1e-300 ? "p < 1e-300" : fmt::format("p = {:.2g}", test.p_value);
   const std::string errors =
@@ -179,7 +179,7 @@ std::vector<Clause> doubt_clauses(const Comparison& comparison) {
     if (doubted == 0) continue;
     clauses.push_back(
         {"Limits",
-         fmt::format("{}: warnings at {} of {} points ({}{}).", side.label, doubted, with_result, told.front(),
+         fmt::format("{}: warnings at {} of {} points ({}{}).", name_of(side), doubted, with_result, told.front(),
                      told.size() > 1 ? fmt::format("; {} more in the table", told.size() - 1) : ""),
          {ClauseEvidence::points}});
   }
@@ -209,8 +209,8 @@ std::vector<Clause> cause_clauses(const Comparison& comparison) {
     clauses.push_back(
         {"Why",
          fmt::format("At {} the pulls of {} and {} differ by {}. Largest part: {}, {} N against {} N.",
-                     in_words(comparison.question.study.conditions[worst.condition]), comparison.sides[t.side].label,
-                     comparison.sides[t.reference].label, in_unit(t.channel, std::abs(worst.difference)),
+                     in_words(comparison.question.study.conditions[worst.condition]), name_of(comparison.sides[t.side]),
+                     name_of(comparison.sides[t.reference]), in_unit(t.channel, std::abs(worst.difference)),
                      part_in_words(part->name), number(part->side), number(part->reference)),
          {ClauseEvidence::budget},
          {t.worst}});
@@ -241,10 +241,17 @@ const Difference* widest_difference(const Comparison& comparison) {
   return &comparison.differences[headline_tally(comparison).worst];
 }
 
-std::vector<std::string> label_sides_in_words(Comparison& comparison) {
-  std::vector<std::string> labels = call_in_words(comparison.sides);
-  for (std::string& gap : comparison.not_compared) gap = models_in_words(std::move(gap), labels);
-  return labels;
+std::string name_of(const Side& side) { return model_in_words(side.label); }
+
+std::string in_words(const Comparison& comparison, const NotCompared& gap) {
+  const std::string side = name_of(comparison.sides[gap.side]);
+  if (gap.what == NotCompared::What::no_result)
+    return fmt::format("{} has no result at {} of {} conditions ({}: {})", side, gap.conditions.size(),
+                       comparison.question.study.conditions.size(),
+                       in_words(comparison.question.study.conditions[gap.conditions.front()]), gap.why);
+  const std::string pair = side + " and " + name_of(comparison.sides[gap.reference]);
+  return gap.what == NotCompared::What::no_joint_test ? pair + " have no test of all values at once: " + gap.why
+                                                      : pair + " share no condition with a result";
 }
 
 std::optional<Clause> headline(const Comparison& comparison) {
@@ -283,9 +290,9 @@ std::vector<Clause> opening(const Comparison& comparison) {
   return clauses;
 }
 
-std::vector<Clause> missing_clauses(const LoopAnswer& loop, const std::vector<std::string>& mistaken_columns) {
+std::vector<Clause> missing_clauses(const LoopOfComparison& loop) {
   std::vector<Clause> clauses;
-  for (const BackedSentence& said : headline(loop, mistaken_columns))
+  for (const BackedSentence& said : headline(loop.answer, in_words(loop.mistaken_columns)))
     clauses.push_back({said.about, said.text + (said.detail.empty() ? "" : " " + said.detail), {ClauseEvidence::loop}});
   return clauses;
 }
@@ -296,7 +303,8 @@ std::vector<Clause> limits_of_the_comparison(const Comparison& comparison) {
       comparison.differences, [](const Difference& d) { return d.finding != DifferenceFinding::not_judged; });
   if (judged) clauses.push_back(chance_clause(comparison));
   for (Clause& clause : doubt_clauses(comparison)) clauses.push_back(std::move(clause));
-  for (const std::string& gap : comparison.not_compared) clauses.push_back({"not compared", gap + "."});
+  for (const NotCompared& gap : comparison.not_compared)
+    clauses.push_back({"not compared", in_words(comparison, gap) + "."});
   return clauses;
 }
 

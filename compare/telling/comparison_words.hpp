@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "compare/discrepancy/comparison.hpp"
-#include "compare/loop/loop.hpp"
 
 namespace soilbin::compare {
 
@@ -23,8 +22,11 @@ struct Clause {
   std::vector<std::size_t> rows{};  ///< of Comparison::differences
 };
 
-/// Calls the sides in words, in all that speaks of them, for pages and documents; gives the labels that they had.
-std::vector<std::string> label_sides_in_words(Comparison& comparison);
+/// What every sentence, table and figure calls a side: "analytic wheel with slip sinkage". Data keep its label.
+std::string name_of(const Side& side);
+
+/// "grains has no result at 1 of 4 conditions (...)".
+std::string in_words(const Comparison& comparison, const NotCompared& gap);
 
 /// The lines that a page opens with: the headline; how much of the difference the soil's uncertainty explains; what the
 /// size of the grains does to their answers. The last two are absent where nothing can be said of them.
@@ -41,7 +43,7 @@ const Difference* widest_difference(const Comparison& comparison);
 std::vector<Clause> cause_clauses(const Comparison& comparison);
 
 /// What the loop says is missing, what that does to the error, what to measure next.
-std::vector<Clause> missing_clauses(const LoopAnswer& loop, const std::vector<std::string>& mistaken_columns);
+std::vector<Clause> missing_clauses(const LoopOfComparison& loop);
 
 /// How sure it is, what limits it, what was not compared.
 std::vector<Clause> limits_of_the_comparison(const Comparison& comparison);

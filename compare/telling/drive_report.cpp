@@ -1,5 +1,4 @@
-#include "compare/telling/drive_report.hpp"
-
+// A drive as it is told: the analytic wheel's, and both models' side by side.
 #include <fmt/core.h>
 #include <fmt/format.h>
 
@@ -8,11 +7,14 @@
 #include <cmath>
 #include <functional>
 
+#include "compare/drives/drive.hpp"
+#include "compare/drives/drive_sides.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/drive_way.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/unit.hpp"
@@ -711,16 +713,16 @@ Report report_on(const AnalyticDrive& drive) {
   Report report{drive.question.name, drive.question.description, heading_of(drive.question)};
   report.add(samples_table(drive.record), Told::on_terminals);
   report.add(Sentences(sentences_of(drive)));
+  report.sheet = drawn_once([&drive] { return drive_sheet(drive); });
   report.add(
       "Against time",
-      Figure{[&drive] { return drive_sheet(drive); },
+      Figure{report.sheet,
              "The soil in contact has seen the slip of the last quarter turn or so: it lags behind the speeds."});
   if (!drive.errors.moved.empty()) report.add("How sure", errors_table(drive.errors));
   report.add("Where the work went", energy_table(drive.record.samples.back().energy));
   if (!drive.record.happenings.empty()) report.add("On the way", happenings_table(drive.record.happenings));
   report.data = [&drive] { return drive_json(drive); };
   report.csv = [&drive] { return drive_csv(drive); };
-  report.sheet = [&drive] { return drive_sheet(drive); };
   return report;
 }
 
@@ -728,8 +730,9 @@ Report report_on(const DriveSides& drive) {
   Report report{drive.question.name, drive.question.description, heading_of(drive.question)};
   report.add(samples_table(drive), Told::on_terminals);
   report.add(Sentences(sentences_of(drive)));
+  report.sheet = drawn_once([&drive] { return drive_sheet(drive); });
   report.add("Against time",
-             Figure{[&drive] { return drive_sheet(drive); },
+             Figure{report.sheet,
                     "Instants of the analytic wheel; of grains means since the sample before. Dashed: "
                     "mean of the grains where way and motor no longer change, with its standard error."});
   if (!drive.differences.empty()) report.add("Steady state", differences_table(drive));
@@ -739,7 +742,6 @@ Report report_on(const DriveSides& drive) {
   report.notes = drive.notes;
   report.data = [&drive] { return drive_json(drive); };
   report.csv = [&drive] { return drive_csv(drive); };
-  report.sheet = [&drive] { return drive_sheet(drive); };
   return report;
 }
 

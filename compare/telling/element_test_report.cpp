@@ -1,5 +1,5 @@
-#include "compare/telling/element_test_report.hpp"
-
+// Outcomes of the element tests as they are told: their runs, what they give, curves; soilbin-element-test/1. `soil`:
+// the name of the soil whose grains were tested.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -7,6 +7,12 @@
 
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/telling/reports.hpp"
+#include "dem/element_tests/angle_of_repose.hpp"
+#include "dem/element_tests/bevameter_tests.hpp"
+#include "dem/element_tests/direct_shear.hpp"
+#include "dem/element_tests/tilting_board.hpp"
+#include "dem/element_tests/triaxial.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {

@@ -1,16 +1,17 @@
-#include "compare/telling/failure_map_report.hpp"
-
+// A failure map as it is told; soilbin-failure-map/1.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "compare/doubts/grain_resolution.hpp"
+#include "compare/failure_map/learned_map.hpp"
 #include "compare/report/heat_map.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/reports.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -1,5 +1,4 @@
-#include "compare/telling/limits_report.hpp"
-
+// What a wheel can do at best, as it is told; the rows of soilbin-limits/1.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -12,6 +11,9 @@
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/sweep/wheel_limits.hpp"
+#include "compare/telling/answer_report.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
@@ -152,9 +154,7 @@ Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& limits)
   const Axis slope{"slope [deg]"};
   const bool one_load = std::ranges::all_of(
       answers, [&](const WheelLimits& answer) { return answer.at.load == answers.front().at.load; });
-  Sheet sheet{fmt::format("{} on {}{}", question.scenario.tire.name, in_words(question.scenario.soil),
-                          one_load && !answers.empty() ? fmt::format(", load {:.6g} N", answers.front().at.load) : ""),
-              {{"Largest pull [N]", slope, {}, {}}, {"Slip [%]", slope, {}, {}}}};
+  Sheet sheet{title_of_question(question, false), {{"Largest pull [N]", slope, {}, {}}, {"Slip [%]", slope, {}, {}}}};
   sheet.note = "bands: one standard error of the largest pull, from the standard deviations of the soil's values";
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const WheelLimits& answer = answers[i];
@@ -197,8 +197,7 @@ Report report_on(const Case& question, const std::vector<WheelLimits>& answers,
                  const std::vector<ModelAnswers>& at_limits) {
   Report report{"Limits of " + question.scenario.tire.name,
                 "The largest pull and the steepest slope in a steady state.",
-                fmt::format("{} on {}\n{}", tire_in_words(question), in_words(question.scenario.soil),
-                            errors_in_words(question))};
+                asked_in_words(question) + "\n" + errors_in_words(question)};
   for (const WheelLimits& answer : answers) {
     Table table = slopes_table(answer);
     if (answer.error.empty()) {
@@ -211,7 +210,9 @@ Report report_on(const Case& question, const std::vector<WheelLimits>& answers,
   if (const std::string errors = errors_in_words(question); !errors.empty())
     report.add(Prose{{errors}}, Told::to_look_at);
   report.add(WarningsHere());
-  report.sheet = [&] { return limits_sheet(question, answers); };
+  report.sheet = drawn_once([&] { return limits_sheet(question, answers); });
+  if (std::ranges::none_of(answers, [](const WheelLimits& answer) { return answer.error.empty(); }))
+    report.no_answer = "no solution: " + answers.front().error;
   report.add("Against the slope", Figure(report.sheet, "Bands: one standard error of the largest pull."));
   report.csv = [&] { return limits_csv(answers, at_limits, remarks_about(question.scenario)); };
   return report;

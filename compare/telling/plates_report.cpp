@@ -1,13 +1,14 @@
-#include "compare/telling/plates_report.hpp"
-
+// What measured plate tests gave, as it is told; soilbin-plates/1.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "compare/bevameter/measured_plates.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/telling/reports.hpp"
 #include "resistive_force/response.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/quantity.hpp"
@@ -281,8 +282,8 @@ Report report_on(const MeasuredPlatesFit& fit, std::span<const MeasuredPlate> pl
                             fit.highest / 1e3)};
   report.add("Values", values_table(fit));
   report.add(Sentences(words_on_errors(fit)));
-  report.add("Pressure over sinkage", Figure{[&fit, plates, file] { return plates_sheet(plates, fit, file); },
-                                             "Points: readings; lines: Bekker's form."});
+  report.sheet = drawn_once([&fit, plates, file] { return plates_sheet(plates, fit, file); });
+  report.add("Pressure over sinkage", Figure{report.sheet, "Points: readings; lines: Bekker's form."});
   report.add("Plate by plate", plates_table(fit));
   report.add(Sentences({"b is a round plate's radius, a strip's width."}));
   std::vector<std::string> aside = apart_in_words(fit), of_readings = aside_in_words(fit);
@@ -294,7 +295,6 @@ Report report_on(const MeasuredPlatesFit& fit, std::span<const MeasuredPlate> pl
   report.add("For the model rft", Code{rft_lines(fit, "soilbin plates " + file)});
   report.add("For a soil file", Code{yaml_lines(fit, "soilbin plates " + file)});
   report.data = [&fit, tests = plates.size()] { return plates_json(fit, tests); };
-  report.sheet = [&fit, plates, file] { return plates_sheet(plates, fit, file); };
   return report;
 }
 

@@ -1,15 +1,17 @@
-#include "compare/telling/prediction_report.hpp"
-
+// A campaign beside its prediction, as it is told; soilbin-predict/1.
 #include <fmt/core.h>
 
 #include <algorithm>
 
 #include "compare/doubts/doubts.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answer_sheets.hpp"
+#include "compare/sweep/prediction.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/reports.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -68,8 +70,8 @@ Report report_on(const Prediction& prediction, const Campaign& campaign, const S
   Report report{campaign.name, "A measured campaign beside the model's prediction; nothing is fitted.",
                 fmt::format("{}: {} runs of {}, predicted with {}\n{}", campaign.name, prediction.runs.size(),
                             in_words(campaign.wheel), soil_from, errors_in_words(asked))};
-  report.add("Over slip",
-             Figure{[&] { return campaign_sheet(campaign, prediction); }, "Points: measured; lines: predicted."});
+  report.sheet = drawn_once([&] { return campaign_sheet(campaign, prediction); });
+  report.add("Over slip", Figure{report.sheet, "Points: measured; lines: predicted."});
   report.add("Predicted against measured",
              Figure{[&] { return scatter_sheet(campaign, prediction); }, "On the line both agree."});
   report.add("Run by run", runs_table(prediction));
@@ -80,7 +82,6 @@ Report report_on(const Prediction& prediction, const Campaign& campaign, const S
   report.add("How far off", channel_errors_table(prediction));
   report.data = [&] { return to_json(prediction, campaign.name); };
   report.csv = [&] { return prediction_csv(prediction, remarks_on(campaign, asked, prediction)); };
-  report.sheet = [&] { return campaign_sheet(campaign, prediction); };
   return report;
 }
 

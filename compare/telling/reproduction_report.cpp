@@ -1,5 +1,4 @@
-#include "compare/telling/reproduction_report.hpp"
-
+// A reproduction as it is told; soilbin-reproduction/1.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -7,9 +6,11 @@
 
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/reproduction/reproduction.hpp"
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/unit.hpp"
 

@@ -1,12 +1,12 @@
-#include "compare/telling/shear_report.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "compare/bevameter/measured_shear.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/soil_parameters.hpp"
 
@@ -127,12 +127,11 @@ Report report_on(const MeasuredShearFit& fit, std::span<const MeasuredShear> tes
   Report report{file, "Measured shear tests and Janosi's curve.", counted(tests.size(), "test")};
   report.add("Values", shear_values_table(fit));
   report.add(Sentences(words_on_shear(fit)));
-  report.add("Shear stress over displacement", Figure{[&fit, tests, file] { return shear_sheet(tests, fit, file); },
-                                                      "Points: readings; lines: Janosi's curve."});
+  report.sheet = drawn_once([&fit, tests, file] { return shear_sheet(tests, fit, file); });
+  report.add("Shear stress over displacement", Figure{report.sheet, "Points: readings; lines: Janosi's curve."});
   report.add("Test by test", shear_tests_table(fit, tests));
   report.add("For a soil file", Code{shear_lines(fit, "soilbin shear " + file)});
   report.data = [&fit, tests] { return shear_json(fit, tests); };
-  report.sheet = [&fit, tests, file] { return shear_sheet(tests, fit, file); };
   return report;
 }
 

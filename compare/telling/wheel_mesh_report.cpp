@@ -1,10 +1,12 @@
-#include "compare/telling/wheel_mesh_report.hpp"
-
+// What was found in a drawing of a wheel and what was mended in it; soilbin-mesh/1: docs/guide/bring-a-tire.md.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+
+#include "compare/telling/reports.hpp"
+#include "dem/surface/drawn_wheel.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -141,9 +143,9 @@ Report report_on(const dem::DrawnWheel& wheel, const std::string& file) {
   for (const std::string& change : wheel.changes) changes.push_back({"changed", change});
   if (changes.empty()) changes.push_back({"", "Nothing had to be changed."});
   report.add(Sentences(changes));
-  report.add("Seen", Figure{[&wheel, file] { return wheel_sheet(wheel, file); }, ""});
+  report.sheet = drawn_once([&wheel, file] { return wheel_sheet(wheel, file); });
+  report.add("Seen", Figure{report.sheet, ""});
   report.data = [&wheel, file] { return mesh_json(wheel, file); };
-  report.sheet = [&wheel, file] { return wheel_sheet(wheel, file); };
   return report;
 }
 

@@ -6,9 +6,9 @@
 #include <map>
 #include <optional>
 
-#include "compare/calibrate/calibration_words.hpp"
 #include "compare/experiments/element_experiments.hpp"
 #include "compare/sweep/result_json.hpp"
+#include "compare/telling/calibration_report.hpp"
 #include "notebooks/bindings/keywords.hpp"
 #include "scenario/errors.hpp"
 

@@ -59,7 +59,15 @@ void bind_differences(py::module_& module) {
       .def_readonly("case", &Comparison::question)
       .def_readonly("sides", &Comparison::sides, "analytic first, then grains, then measured")
       .def_readonly("differences", &Comparison::differences, "by pair, channel, condition")
-      .def_readonly("not_compared", &Comparison::not_compared)
+      .def_property_readonly(
+          "not_compared",
+          [](const Comparison& comparison) {
+            std::vector<std::string> all;
+            for (const compare::NotCompared& gap : comparison.not_compared)
+              all.push_back(compare::in_words(comparison, gap));
+            return all;
+          },
+          "pairs and conditions that are left out, and why")
       .def_property_readonly(
           "sentences",
           [](const Comparison& comparison) {

@@ -2,8 +2,8 @@
 #include <fmt/core.h>
 
 #include "bekker_wong/effect.hpp"
-#include "compare/loop/answer_words.hpp"
 #include "compare/sweep/result_json.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "notebooks/bindings/bindings.hpp"
 #include "scenario/errors.hpp"
 

@@ -33,7 +33,7 @@ class TheHouse(unittest.TestCase):
         self.assertIn("compare/loop/loop.hpp", named)
 
     def test_has_every_single_file_that_a_rule_excepts(self):
-        for places in rules.LIBRARIES.values():
+        for places in [*rules.LIBRARIES.values(), rules.TOLD_ELSEWHERE]:
             for place in places:
                 if not place.endswith("/"):
                     self.assertTrue((ROOT / place).is_file(), place)
@@ -161,6 +161,16 @@ class TheRules(unittest.TestCase):
         self.assertEqual(self.breaches("effects", bekker_wong__effects__drift_dot_cpp=one,
                                        bekker_wong__effects__moisture_dot_cpp=other),
                          ["bekker_wong/effects/moisture.cpp:1: effect moisture names effect drift"])
+
+    def test_a_sentence_that_is_formatted_where_things_are_computed(self):
+        def found(statement, name="compare__fit__a_dot_cpp"):
+            return self.breaches("sentences", **{name: f"std::string said() {{\n  {statement}\n}}\n"})
+        said = 'return fmt::format("The fit leaves {} of the squared "\n    "residual unexplained.", share);'
+        self.assertEqual(found(said), ["compare/fit/a.cpp: formats the sentence 'The fit leaves {} of the squared residual "
+                                       "unexplained.': sentences are made in compare/telling/"])
+        self.assertEqual(found(said, "compare__telling__a_dot_cpp"), [])
+        self.assertEqual(found(said.replace("return", "throw InputError(").replace(";", ");")), [])
+        self.assertEqual(found('return fmt::format("{} of {}", done, all);  // The share of all that is done.'), [])
 
 
 if __name__ == "__main__":

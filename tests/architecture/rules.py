@@ -246,6 +246,43 @@ def effect_breaches(root, files):
                     yield f"{name}:{number}: effect {stem} names effect {other}"
 
 
+STRING = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
+SENTENCE_WORDS = 5
+# Where sentences may be formatted beside telling/.
+TOLD_ELSEWHERE = {
+    "compare/report/",  # a page says that a replay can't be shown
+    "compare/design/level_effects.cpp",  # to be told: what an analysis of variance takes for its error
+    "compare/measured/time_log.cpp",  # to be told: what `runs` says of a log
+    "compare/sweep/varying.cpp",  # to be told: where an answer's errors come from
+}
+
+
+def statements(text):
+    """The statements of C++ text, comments left out; braces and semicolons in strings part nothing."""
+    code = "\n".join(line for line in text.splitlines() if not line.lstrip().startswith(("//", "#")))
+    place = 0
+    for found in re.finditer(r'"(?:[^"\\\n]|\\.)*"|[;{}]', code):
+        if found[0] in ";{}":
+            yield code[place:found.start()]
+            place = found.end()
+
+
+def sentence_breaches(root, files):
+    """What is computed is a value: a sentence is formatted in telling/ alone, errors excepted."""
+    for name in files:
+        if name.parts[0] != "compare" or name.suffix != ".cpp" or "telling" in name.parts:
+            continue
+        if any(str(name).startswith(place) if place.endswith("/") else str(name) == place for place in TOLD_ELSEWHERE):
+            continue
+        for statement in statements((root / name).read_text(encoding="utf-8")):
+            if "fmt::format" not in statement or re.search(r"\bthrow\b|Error\(|NoSolution\(", statement):
+                continue
+            text = "".join(STRING.findall(statement))
+            words = re.findall(r"[A-Za-z]{2,}", re.sub(r"\{[^}]*\}", " ", text))
+            if len(words) >= SENTENCE_WORDS and text.rstrip().endswith("."):
+                yield f"{name}: formats the sentence '{text[:60]}': sentences are made in compare/telling/"
+
+
 RULES = {
     "floors": floor_breaches,
     "libraries": library_breaches,
@@ -256,4 +293,5 @@ RULES = {
     "opening comments": opening_breaches,
     "machine paths": machine_path_breaches,
     "effects": effect_breaches,
+    "sentences": sentence_breaches,
 }

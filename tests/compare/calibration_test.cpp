@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "compare/calibrate/calibration_words.hpp"
+#include "compare/telling/calibration_report.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 #include "tests/compare/stand_in_board.hpp"

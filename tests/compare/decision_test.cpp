@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "compare/calibrate/calibration_words.hpp"
+#include "compare/telling/calibration_report.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -153,8 +153,8 @@ TEST_F(Pair, AFlexibleTireAgainstRigidGrainsIsSaidAndNeverTheHeadline) {
   EXPECT_THAT(first->text, AllOf(HasSubstr("is 100 N"), Not(HasSubstr(unlike))));
   std::size_t said = 0;
   for (const Clause& clause : summary(comparison))
-    said +=
-        clause.text.find("flexible less dem: ") != std::string::npos && clause.text.find(unlike) != std::string::npos;
+    said += clause.text.find("flexible less grains: ") != std::string::npos &&
+            clause.text.find(unlike) != std::string::npos;
   EXPECT_EQ(said, 3U) << "at each of its channels";
   const Comparison alone =
       compare_sides(question, {flexible.choice}, {side_of(flexible), grain_side(base, {100}, 40.0)});
@@ -183,7 +183,7 @@ TEST_F(Pair, TheMatrixHoldsTheBaselineAndEachChange) {
   const Table matrix = matrix_table(against({300}, 40.0));
   ASSERT_EQ(matrix.rows.size(), question.study.conditions.size());
   ASSERT_EQ(matrix.header.size(), 7U) << "the condition, then two columns for each of three channels";
-  EXPECT_THAT(matrix.header[1], AllOf(HasSubstr("drawbar pull ["), HasSubstr("dem")));
+  EXPECT_THAT(matrix.header[1], AllOf(HasSubstr("drawbar pull ["), HasSubstr("grains")));
   EXPECT_THAT(matrix.header[2], HasSubstr("change ["));
   const bool kilo = matrix.header[1].find("[kN]") != std::string::npos;
   for (const auto& row : matrix.rows) EXPECT_EQ(row[2].text, kilo ? "-0.3 *" : "-300 *");
@@ -243,7 +243,7 @@ TEST_F(Pair, TheHeadlineIsShortAndSpeaksOfTheWidestRow) {
                                                   100 * comparison.question.study.conditions[worst->condition].slip)));
   EXPECT_THAT(clause->text, HasSubstr(": significant. "));
   EXPECT_EQ(tally_table(comparison).header.at(3),
-            fmt::format("mean of {} less {}", comparison.sides[0].label, comparison.sides[1].label));
+            fmt::format("mean of {} less {}", name_of(comparison.sides[0]), name_of(comparison.sides[1])));
 }
 
 // The table's first row is the widest pair; what the errors cannot have made is bad news, what they can is good.
@@ -275,7 +275,7 @@ TEST_F(Pair, LimitsOfGrainsAreMarkedOnTheCurves) {
         if (series.label == label) points += series.x.size();
     return points;
   };
-  EXPECT_GT(labelled(comparison.sides[1].label + ", coarse for the wheel, one bed sample each"), 0u);
+  EXPECT_GT(labelled(name_of(comparison.sides[1]) + ", coarse for the wheel, one bed sample each"), 0u);
   EXPECT_EQ(labelled("negative sinkage: the tread stands above the mean surface"), 1u);
   comparison.sides[1].points[0].runs = 2;
   const Sheet some = curve_sheet(comparison, 0, false);
@@ -334,14 +334,18 @@ TEST_F(Pair, WithoutAStatedErrorThereIsNoJointTestAndTheSummarySaysWhy) {
   dem.points[2].result->torque.std_error = 0.0;
   EXPECT_FALSE(joint_test(dem, question, {}).test);
   const Comparison comparison = compare_sides(question, {base.choice}, {side_of(base), dem});
-  EXPECT_THAT(comparison.not_compared, Contains(HasSubstr("no test of all values at once: a value has no standard")));
+  ASSERT_EQ(comparison.not_compared.size(), 1U);
+  EXPECT_EQ(comparison.not_compared.front().what, NotCompared::What::no_joint_test);
+  EXPECT_THAT(summary(comparison).back().text,
+              HasSubstr("analytic wheel and grains have no test of all values at once: a value has no standard"));
 }
 
 // A run's own errors do not tell how far beds scatter: no probability can be had from them.
 TEST_F(Pair, OnePackingOfUnknownScatterHasNoJointTest) {
   const Comparison comparison = against({10}, 5.0);
   EXPECT_TRUE(comparison.joint.empty());
-  EXPECT_THAT(comparison.not_compared, Contains(HasSubstr("the scatter between bed samples is unknown")));
+  ASSERT_EQ(comparison.not_compared.size(), 1U);
+  EXPECT_THAT(comparison.not_compared.front().why, HasSubstr("the scatter between bed samples is unknown"));
 }
 
 // Packings that scatter less than single runs' own errors say so too: those errors are then the ones that count.
@@ -403,7 +407,11 @@ TEST_F(Pair, AConditionWithoutResultIsToldAndTheOthersStillCompared) {
   const Comparison comparison =
       compare_sides(question, {base.choice}, {side_of(base), side_of("dem", runs, question.study.conditions)});
   EXPECT_EQ(comparison.tallies.front().values, 3U);
-  EXPECT_THAT(comparison.not_compared, Contains(HasSubstr("dem has no result at 1 of 4")));
+  ASSERT_FALSE(comparison.not_compared.empty());
+  const NotCompared& missing = comparison.not_compared.back();
+  EXPECT_EQ(missing.what, NotCompared::What::no_result);
+  EXPECT_EQ(missing.side, 1U);
+  EXPECT_THAT(missing.conditions, testing::ElementsAre(1U));
 }
 
 TEST_F(Pair, ResultsBecomeACampaignForTheLoop) {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "bekker_wong/effect_vocabulary.hpp"
-#include "compare/loop/answer_words.hpp"
 #include "compare/loop_fixture.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "scenario/case.hpp"
 #include "scenario/soil_parameters.hpp"
 

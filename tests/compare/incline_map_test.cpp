@@ -8,8 +8,9 @@
 #include <filesystem>
 
 #include "compare/comparison_fixture.hpp"
+#include "compare/failure_map/learned_map.hpp"
 #include "compare/report/json_fields.hpp"
-#include "compare/telling/failure_map_report.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 

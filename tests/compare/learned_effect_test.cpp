@@ -6,8 +6,8 @@
 #include <set>
 
 #include "bekker_wong/learned.hpp"
-#include "compare/loop/answer_words.hpp"
 #include "compare/loop_fixture.hpp"
+#include "compare/telling/loop_report.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "compare/fit/evidence.hpp"
 #include "compare/fit/thresholds.hpp"
-#include "compare/loop/answer_words.hpp"
 #include "compare/loop_fixture.hpp"
 #include "compare/measured/condition_views.hpp"
+#include "compare/telling/loop_report.hpp"
 
 namespace soilbin::compare {
 namespace {

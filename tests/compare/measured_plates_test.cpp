@@ -1,5 +1,7 @@
 // Measured plates: what a file may look like, and that the fit gives back the soil that made the readings.
 
+#include "compare/bevameter/measured_plates.hpp"
+
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +15,7 @@
 #include "compare/doubt_matchers.hpp"
 #include "compare/doubts/plate_doubts.hpp"
 #include "compare/report/json_fields.hpp"
-#include "compare/telling/plates_report.hpp"
+#include "compare/telling/reports.hpp"
 #include "tests/scenario/refusal.hpp"
 
 namespace soilbin::compare {

@@ -137,7 +137,7 @@ TEST(Page, ACardsLineEndsAtAWord) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("soilbin-card-line-{}", ::getpid());
   const auto line_of = [&](const std::string& text) {
     Page page("title", "below");
-    page.sentences({text});
+    page.summary({{"", text}});
     write_file_atomically(folder / "page.html", page.html());
     return page_card(folder / "page.html", folder / "index.html").line;
   };
@@ -172,9 +172,6 @@ TEST(ModelNames, AreThoseOfPeople) {
   EXPECT_EQ(model_in_words("dem packing 2"), "grains, bed sample 2");
   for (const char* own : {"my bekker_wong", "grains", "analytic wheel", "cmu-smooth (measured)", ""})
     EXPECT_EQ(model_in_words(own), own);
-  EXPECT_EQ(models_in_words("dem and bekker_wong + exit_angle share no demand",
-                            {"bekker_wong", "bekker_wong + exit_angle", "dem"}),
-            "grains and analytic wheel with exit angle share no demand");
   EXPECT_THAT(names_and_ids({"dem", "mine", "dem"}), ElementsAre(std::pair<std::string, std::string>("grains", "dem")));
 }
 

@@ -8,7 +8,8 @@
 #include <random>
 
 #include "compare/recorded/recorded_model.hpp"
-#include "compare/telling/reproduction_report.hpp"
+#include "compare/reproduction/reproduction.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

@@ -1,7 +1,7 @@
 // The case that a loop saves: one condition for each that was run, however often.
 #include <gmock/gmock.h>
 
-#include "compare/loop/answer_words.hpp"
+#include "compare/telling/loop_report.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -7,12 +7,12 @@
 
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answer_sheets.hpp"
-#include "compare/sweep/answers_page.hpp"
 #include "compare/sweep/explanation.hpp"
 #include "compare/sweep/prediction.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/answer_report.hpp"
+#include "compare/telling/studies_report.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 #include "tests/fixtures.hpp"

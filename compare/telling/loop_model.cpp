@@ -4,7 +4,7 @@
 #include <set>
 
 #include "bekker_wong/effect.hpp"
-#include "compare/loop/answer_words.hpp"
+#include "compare/telling/loop_report.hpp"
 
 namespace soilbin::compare {
 

@@ -9,7 +9,7 @@
 #include "compare/calibrate/calibration.hpp"
 #include "compare/calibrate/contact_values.hpp"
 #include "compare/calibrate/published_sets.hpp"
-#include "compare/report/table.hpp"
+#include "compare/report/report.hpp"
 #include "scenario/soil.hpp"
 
 namespace soilbin::compare {
@@ -25,6 +25,11 @@ Table runs_table(const VirtualTest& test, const Calibration& calibration);
 /// Candidates: values, what is predicted of them, chi square, chance.
 Table candidates_table(const VirtualTest& test, const Calibration& calibration);
 
+/// The sentences, what each factor does, the candidates, the runs: on a terminal these last where `with_runs`. All
+/// outlive the report.
+Report report_on(const VirtualTest& test, const CalibrationOptions& options, const Calibration& calibration,
+                 bool with_runs);
+
 /// Published sets: values, what was published, ours, what was measured.
 Table beside_table(const VirtualTest& test, const std::vector<PublishedSet>& sets);
 
@@ -36,9 +41,6 @@ nlohmann::ordered_json to_json(const VirtualTest& test, const CalibrationOptions
 /// well the targets determine the value. Factors are named as the contact's numbers.
 Soil calibrated_soil(Soil soil, ContactKind kind, const VirtualTest& test, const CalibrationOptions& options,
                      const Calibration& calibration);
-
-/// "(a)" for the first.
-std::string candidate_name(std::size_t candidate);
 
 /// The soil bin's verdict, the candidates that it can't tell apart, and what the errors don't hold. One string a
 /// sentence.

@@ -1,4 +1,4 @@
-#include "compare/sweep/answers_page.hpp"
+#include "compare/telling/studies_report.hpp"
 
 #include <fmt/core.h>
 
@@ -7,7 +7,6 @@
 
 #include "bekker_wong/effect.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/report/page.hpp"
 #include "compare/report/shell_words.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/model_names.hpp"
@@ -144,7 +143,7 @@ Table peak_table(const StudyPart& part) {
   for (std::size_t m = 0; m < part.study.size(); ++m)
     for (const Peak& peak : peaks(part, m)) {
       table.add(peak_row(peak));
-      if (several) table.rows.back().insert(table.rows.back().begin(), part.study[m].choice.label);
+      if (several) table.rows.back().insert(table.rows.back().begin(), model_in_words(part.study[m].choice.label));
     }
   return table;
 }
@@ -156,7 +155,7 @@ Table answers_table(const StudyPart& part) {
       {true, true}};
   for (const ModelAnswers& model : part.study)
     for (const Answer& answer : model.answers) {
-      std::vector<TableCell> row = {model.choice.label, in_words(answer.at)};
+      std::vector<TableCell> row = {model_in_words(model.choice.label), in_words(answer.at)};
       if (!answer.result)
         row.push_back("no solution: " + answer.error);
       else
@@ -222,16 +221,18 @@ void leave_one_band(Sheet& sheet, bool one_curve) {
     for (Series& series : plot.series) series.band = one_curve && &series == plot.series.data();
 }
 
-void add_curve_figure(Page& page, const StudyPart& part, const Case& curves, const std::vector<ModelAnswers>& along) {
+Figure curve_figure(const StudyPart& part, const Case& curves, std::vector<ModelAnswers> along) {
+  for (ModelAnswers& model : along) model.choice.label = model_in_words(model.choice.label);
   Sheet sheet = study_sheet(curves, along);
   const bool one_curve = sheet.palette == Palette::named;
   leave_one_band(sheet, one_curve);
-  page.figure(
-      sheet,
-      fmt::format("{} on {}. Efficiency is drawn where the wheel both drives and pulls.{}{}",
-                  part.question.scenario.tire.name, in_words(part.question.scenario.soil),
-                  part.study.size() > 1 && !one_curve ? fmt::format(" Dashed: {}.", part.study[1].choice.label) : "",
-                  bands_in_words(sheet.plots.front().series)));
+  std::string caption = fmt::format("{} on {}. Efficiency is drawn where the wheel both drives and pulls.{}{}",
+                                    part.question.scenario.tire.name, in_words(part.question.scenario.soil),
+                                    part.study.size() > 1 && !one_curve
+                                        ? fmt::format(" Dashed: {}.", model_in_words(part.study[1].choice.label))
+                                        : "",
+                                    bands_in_words(sheet.plots.front().series));
+  return {std::move(sheet), std::move(caption)};
 }
 
 /// Of answers those on one curve.
@@ -245,60 +246,66 @@ std::vector<Answer> on_curve(const std::vector<Answer>& answers, const std::stri
   return some;
 }
 
+using StudyParts = std::vector<ReportPart>;
+
+/// Those of a study's curves that are one, and their answers.
+Figure figure_of_curve(const StudyPart& part, const Curves& curves, std::size_t c) {
+  Case one = part.curves;
+  one.study.conditions.clear();
+  for (std::size_t i = 0; i < curves.curve_of.size(); ++i)
+    if (curves.curve_of[i] == c) one.study.conditions.push_back(part.curves.study.conditions[i]);
+  std::vector<ModelAnswers> along = part.along_curves;
+  for (ModelAnswers& model : along) model.answers = on_curve(model.answers, curves.labels[c]);
+  return curve_figure(part, one, along);
+}
+
 /// A curve at a time, the one that the headline speaks of first; all of them last.
-void add_curves(Page& page, const StudyPart& part) {
+void add_curves(Report& report, const StudyPart& part) {
   const Curves curves = curves_against_slip(part.curves.study.conditions, Spread::exact);
-  if (curves.labels.size() < 2) return add_curve_figure(page, part, part.curves, part.along_curves);
-  std::vector<Choice> parts;
+  const auto all = [&part] { return StudyParts{{curve_figure(part, part.curves, part.along_curves)}}; };
+  if (curves.labels.size() < 2) return report.add(curve_figure(part, part.curves, part.along_curves));
+  Choices choices{capital(curves.varying), {}};
   for (std::size_t c = 0; c < curves.labels.size(); ++c)
-    parts.push_back({curves.labels[c], [&page, &part, &curves, c] {
-                       Case one = part.curves;
-                       one.study.conditions.clear();
-                       for (std::size_t i = 0; i < curves.curve_of.size(); ++i)
-                         if (curves.curve_of[i] == c) one.study.conditions.push_back(part.curves.study.conditions[i]);
-                       std::vector<ModelAnswers> along = part.along_curves;
-                       for (ModelAnswers& model : along) model.answers = on_curve(model.answers, curves.labels[c]);
-                       add_curve_figure(page, part, one, along);
-                     }});
-  parts.push_back(
-      {"all curves at once", [&page, &part] { add_curve_figure(page, part, part.curves, part.along_curves); }});
+    choices.all.emplace_back(curves.labels[c],
+                             [&part, curves, c] { return StudyParts{{figure_of_curve(part, curves, c)}}; });
+  choices.all.emplace_back("all curves at once", all);
   const std::optional<Peak> shown = shown_peak(part);
-  const auto first = std::ranges::find(curves.labels, shown ? shown->label : "");
-  page.choices(capital(curves.varying), parts,
-               first == curves.labels.end() ? 0 : static_cast<std::size_t>(first - curves.labels.begin()));
+  if (const auto first = std::ranges::find(curves.labels, shown ? shown->label : ""); first != curves.labels.end())
+    choices.first = static_cast<std::size_t>(first - curves.labels.begin());
+  report.add(std::move(choices));
 }
 
 /// Which standard deviations the errors come from, declared and assumed; nothing for grains, which have none of these.
-void add_origin_of_errors(Page& page, const Scenario& scenario) {
-  if (const std::string words = errors_in_words(scenario); !words.empty()) page.paragraph(words);
+Prose origin_of_errors(const Scenario& scenario) {
+  const std::string words = errors_in_words(scenario);
+  return words.empty() ? Prose{} : Prose{{words}};
 }
 
 /// `opens`: its curves stand at the head of the page already.
-void add_study(Page& page, const StudyPart& part, bool opens) {
-  page.section(part.question.study.name);
-  if (!part.question.description.empty()) page.paragraph(part.question.description + ".");
+void add_study(Report& report, const StudyPart& part, bool opens) {
+  report.add(part.question.study.name, Prose{});
+  if (!part.question.description.empty()) report.add(Prose{{part.question.description + "."}});
   if (opens)
-    page.paragraph("Its curves are at the top of this page.");
+    report.add(Prose{{"Its curves are at the top of this page."}});
   else
-    add_curves(page, part);
-  add_origin_of_errors(page, seen_by(part.question.study.models.front(), part.question.scenario));
-  page.table(peak_table(part));
-  page.folded("All conditions as a table", [&] { page.table(answers_table(part)); });
+    add_curves(report, part);
+  report.add(origin_of_errors(seen_by(part.question.study.models.front(), part.question.scenario)));
+  report.add(peak_table(part));
+  report.add(Fold{"All conditions as a table", [&part] { return StudyParts{{answers_table(part)}}; }});
 }
 
-void add_campaign(Page& page, const CampaignPart& part) {
-  page.section(part.campaign.name);
-  page.table(error_table(part.prediction));
-  add_origin_of_errors(page, scenario_of(part.campaign));
-  page.figure(campaign_sheet(part.campaign, part.prediction),
-              "Points: measured runs. Lines: what the model says at the same load, slip and angle, with the soil as it "
-              "was declared beforehand.");
-  page.figure(scatter_sheet(part.campaign, part.prediction),
-              "On the dashed line the prediction equals the measurement.");
+void add_campaign(Report& report, const CampaignPart& part) {
+  report.add(part.campaign.name, error_table(part.prediction));
+  report.add(origin_of_errors(scenario_of(part.campaign)));
+  report.add(Figure(campaign_sheet(part.campaign, part.prediction),
+                    "Points: measured runs. Lines: what the model says at the same load, slip and angle, with the soil "
+                    "as it was declared beforehand."));
+  report.add(Figure(scatter_sheet(part.campaign, part.prediction),
+                    "On the dashed line the prediction equals the measurement."));
 }
 
-void add_provenance(Page& page, const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns) {
-  page.section("Where the numbers come from");
+void add_provenance(Report& report, const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns) {
+  report.add("Where the numbers come from", Prose{});
   std::vector<std::string> written;
   const auto once = [&](const std::string& what) {
     const bool fresh = std::ranges::find(written, what) == written.end();
@@ -307,15 +314,15 @@ void add_provenance(Page& page, const std::vector<StudyPart>& studies, const std
   };
   for (const StudyPart& part : studies) {
     const Scenario& scenario = part.question.scenario;
-    if (once(tire_words(scenario.tire))) page.paragraph(tire_words(scenario.tire));
+    if (once(tire_words(scenario.tire))) report.add(Prose{{tire_words(scenario.tire)}});
     if (scenario.soil.semi_empirical && once("soil " + scenario.soil.name))
-      page.table(soil_table(in_words(scenario.soil), *scenario.soil.semi_empirical, scenario.soil.source));
+      report.add(soil_table(in_words(scenario.soil), *scenario.soil.semi_empirical, scenario.soil.source));
   }
   for (const CampaignPart& part : campaigns) {
     Tire wheel = part.campaign.wheel;
     if (wheel.name.empty()) wheel.name = "of " + part.campaign.name;
-    if (once(tire_words(wheel))) page.paragraph(tire_words(wheel));
-    page.table(soil_table("declared by " + part.campaign.name, part.campaign.soil, ""));
+    if (once(tire_words(wheel))) report.add(Prose{{tire_words(wheel)}});
+    report.add(soil_table("declared by " + part.campaign.name, part.campaign.soil, ""));
   }
 }
 
@@ -354,12 +361,13 @@ std::string in_words(const StudyPart& part) {
   if (solved.empty()) return "No condition has a solution.";
   const std::size_t shown = solved[(solved.size() - 1) / 2];
   std::string text = largest_pull(base[shown]);
-  if (leading > 0) text = capital(part.study[leading].choice.label) + ", at the declared pressure. " + text;
+  if (leading > 0)
+    text = capital(model_in_words(part.study[leading].choice.label)) + ", at the declared pressure. " + text;
   for (std::size_t m = 0; m < part.study.size(); ++m) {
     if (m == leading) continue;
     const std::vector<Peak> other = peaks(part, m);
     if (other[shown].pull != nullptr)
-      text.append(" ").append(other_model(part.study[m].choice.label, base[shown], other[shown]));
+      text.append(" ").append(other_model(model_in_words(part.study[m].choice.label), base[shown], other[shown]));
   }
   if (solved.size() > 1) text.append(" ").append(change(base[solved.front()], base[solved.back()]));
   return text;
@@ -385,57 +393,37 @@ std::string in_words(const CampaignPart& part) {
   return text + ".";
 }
 
-namespace {
-
-/// Calls the models as people call them; their labels, which flags and files spell, as they were.
-std::vector<std::string> name_models(std::vector<StudyPart>& studies) {
-  std::vector<std::string> labels;
-  for (StudyPart& part : studies)
-    for (std::vector<ModelAnswers>* study : {&part.study, &part.along_curves})
-      for (ModelAnswers& model : *study) {
-        labels.push_back(model.choice.label);
-        model.choice.label = model_in_words(model.choice.label);
-      }
-  return labels;
-}
-
-}  // namespace
-
-std::string analysis_page(const std::vector<StudyPart>& answered, const std::vector<CampaignPart>& campaigns,
-                          const PageAbout& about, const std::vector<PageCard>& links) {
-  std::vector<StudyPart> studies = answered;
-  const std::vector<std::pair<std::string, std::string>> ids = names_and_ids(name_models(studies));
-  Page page(
-      about.title,
-      "What does this tire do on this soil? Answers of the analytic wheel, and how they compare with measurements.");
+Report report_on(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns,
+                 const std::vector<PageCard>& links) {
+  Report report{
+      "soilbin report",
+      "What does this tire do on this soil? Answers of the analytic wheel, and how they compare with measurements."};
+  report.add(KeyFigures{key_figures(studies, campaigns)});
   std::vector<std::pair<std::string, std::string>> summary;
   for (const StudyPart& part : studies) summary.emplace_back(part.question.study.name, in_words(part));
   for (const CampaignPart& part : campaigns) summary.emplace_back(part.campaign.name, in_words(part));
-  page.figures_at_a_glance(key_figures(studies, campaigns));
-  page.summary(summary);
-  if (!studies.empty()) add_curves(page, studies.front());
-  if (!links.empty()) {
-    page.section("More pages");
-    page.cards(links);
-  }
+  report.add(Sentences(summary));
+  if (!studies.empty()) add_curves(report, studies.front());
+  if (!links.empty()) report.add("More pages", Cards{links}, Told::on_pages);
   if (!studies.empty() && !studies.front().asked_as.empty()) {
-    page.paragraph(
-        "The live page has sliders for load, slip, tire and soil, and its curves follow them. It is opened by");
-    page.code("soilbin serve " + shell_words({studies.front().asked_as}));
+    report.add(Prose{
+        {"The live page has sliders for load, slip, tire and soil, and its curves follow them. It is opened by"}});
+    report.add(Code{"soilbin serve " + shell_words({studies.front().asked_as})});
   }
-  for (const StudyPart& part : studies) add_study(page, part, &part == &studies.front());
-  for (const CampaignPart& part : campaigns) add_campaign(page, part);
-  page.doubts(about.doubts);
-  add_provenance(page, studies, campaigns);
-  page.section("How this page was made");
-  page.paragraph(
+  for (const StudyPart& part : studies) add_study(report, part, &part == &studies.front());
+  for (const CampaignPart& part : campaigns) add_campaign(report, part);
+  report.add(WarningsHere());
+  add_provenance(report, studies, campaigns);
+  report.notes = {
       "The model is Bekker's pressure-sinkage law with Wong and Reece's stresses under a rigid wheel and Janosi's "
       "shear law; effects named in a model's label are added to it. ± is one standard error, propagated to first order "
       "from the standard deviations of the soil's values. The balance of the load is solved to about 1e-14; the "
-      "quadrature is good to 1e-9.");
-  page.code(about.command);
-  page.facts({"part", "id or version"}, {&ids, &about.versions});
-  return page.html();
+      "quadrature is good to 1e-9."};
+  std::vector<std::string> labels;
+  for (const StudyPart& part : studies)
+    for (const ModelAnswers& model : part.study) labels.push_back(model.choice.label);
+  report.made_of = names_and_ids(labels);
+  return report;
 }
 
 }  // namespace soilbin::compare

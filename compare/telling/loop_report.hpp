@@ -1,8 +1,8 @@
-// Stage 8 of the loop: its answer in plain words, as JSON, tables, a page and a case. Terminal, page, Python and the
-// comparison say the same sentences in the same order.
+// The loop's answer as it is told: sentences, tables, figures, JSON, and a case that other commands take. Terminal,
+// page, Python and the comparison say the same sentences in the same order.
 //
+//   fmt::print("{}", text_of(report_on(campaign, answer, doubts_before_fit(campaign))));
 //   for (const BackedSentence& said : headline(answer, {})) fmt::print("{}. {}\n", said.about, said.text);
-//   fmt::print("{}", as_text(error_table(answer)));
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,13 +10,14 @@
 #include <utility>
 #include <vector>
 
+#include "compare/doubts/doubt.hpp"
 #include "compare/loop/loop.hpp"
-#include "compare/report/page.hpp"
+#include "compare/report/report.hpp"
 #include "scenario/case.hpp"
 
 namespace soilbin::compare {
 
-// Answers for programs (answer_json.cpp, saved_model.cpp).
+// Answers for programs (loop_data.cpp, loop_model.cpp).
 
 /// The answer as JSON, soilbin-loop/1.
 nlohmann::ordered_json to_json(const LoopAnswer& answer);
@@ -55,59 +56,26 @@ std::vector<std::string> notes(const LoopAnswer& answer);
 /// Headline without the verdict, the parameters of the effects, notes: one string a sentence.
 std::vector<std::string> explanation(const LoopAnswer& answer);
 
-/// Whether a held-out error is larger with the effects than without, by more than its third digit.
-bool rises(const HeldOutErrors& error);
-
-/// The channels whose held-out error rises with the effects that the answer's model takes (Channel); none where it
-/// takes none.
-std::vector<int> worse_channels(const LoopAnswer& answer);
-
 /// "held-out error falls by 28 +- 5 sigma^2 a value; predicted better: sinkage (20.6 to 7.04 mm); predicted worse:
 /// drawbar pull (5.95 to 6.30 N)".
 std::string held_out_words(const CrossValidation& validation);
 
-/// The forms of a candidate's effects, in the order of its ids.
-std::vector<std::string> forms_in_order(const CandidateModel& candidate);
-
-/// The sets of the table of candidates: those that compete, then those that stand next.
-std::vector<const WeightedSet*> sets_shown(const LoopAnswer& answer);
-
-// What to measure next (next_run_words.cpp): the run that sets the candidates apart (next_run), or where nothing has a
+// What to measure next (loop_next_runs.cpp): the run that sets the candidates apart (next_run), or where nothing has a
 // name the runs that show how the unexplained part depends on a condition.
 
 /// What to measure next, or why no run is proposed: first what to do, then sentences on why. Empty where no question is
 /// open.
 std::vector<std::string> what_next(const LoopAnswer& answer);
 
-/// Whether the run of LoopAnswer::next is worth making: not where the sets that it decides between are a hundred to one
-/// apart already and neither explains the data.
-bool proposes_next(const LoopAnswer& answer);
-
-/// Names of the conditions of the next run that lie outside what was run, and for which no limit of the rig is given.
-std::vector<std::string> beyond_what_is_known(const NextRun& next);
-
-/// At an unknown effect: what the residual depends on (after the model's effects, where it takes any), surest first, as
-/// many as keep the false-discovery rate at 5 %.
-std::vector<Dependence> sure_dependences(const LoopAnswer& answer);
-
-/// Where an unknown effect depends on a condition (sure_dependences), runs that show how, with that condition alone
-/// at five settings over the range that was run, all else as in the run that the model misses most. Empty where none is
-/// known.
-std::vector<OperatingCondition> shape_series(const LoopAnswer& answer);
-
 /// A number in three digits.
 std::string setting(double value);
-
-/// A condition of a run to be made as the rig would be set to it (rig_setting) [SI]; not a number where it is not
-/// known.
-double rig_setting_of(const LoopAnswer& answer, const OperatingCondition& at, const std::string& condition);
 
 /// A condition of a run to be made as the rig would be set to it (rig_setting), in the unit of the campaign's own
 /// column, and that unit: ("10", "mm/s"). An empty value where the condition is not known.
 std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const OperatingCondition& at,
                                                  const std::string& condition);
 
-// Sets of effects and the evidence for them (evidence_words.cpp).
+// Sets of effects and the evidence for them (loop_evidence.cpp).
 
 /// "a", "a and b", "a, b and c".
 std::string joined_with_and(const std::vector<std::string>& words);
@@ -139,25 +107,23 @@ inline constexpr double least_share = 0.005;
 /// A set's share of the evidence as every sentence and table has it: "81 %".
 std::string share_words(double weight);
 
-// Tables (answer_tables.cpp).
+// Tables (loop_tables.cpp).
 
 /// The next run as a row: a column each condition, how many runs, what they decide between; of an unknown effect the
 /// rows of shape_series. No row: no run is proposed.
 Table next_run_table(const LoopAnswer& answer);
 /// Held-out errors before and after by channel; what falls is marked good, what rises bad.
 Table error_table(const LoopAnswer& answer);
-/// Candidates, first those that the data can't tell apart, their weights and chi2; and what its columns mean.
+/// Candidates, first those that the data can't tell apart, their weights and chi2.
 Table candidates_table(const LoopAnswer& answer);
-std::string candidates_columns_in_words();
 /// The fitted parameters of the effects that the saved model takes: meaning, value, unit, whether they are at a bound.
 Table parameters_table(const LoopAnswer& answer);
 /// The soil's values beside the effects and without them.
 Table soil_table(const LoopAnswer& answer);
 
-/// The report: headline, the next run, measured points with the model before and after, tables, doubts, and folded what
-/// stands behind it. `doubts`: in the campaign (compare/doubts/doubts.hpp), `column_doubts` those of them that the
-/// headline opens with. `command`: how to repeat it.
-std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const std::vector<std::string>& doubts,
-                      const std::vector<std::string>& column_doubts, const std::string& command);
+/// The answer in full: headline, the next run, measured points with the model before and after, tables, notes, and
+/// folded what stands behind it. `doubts`: in the campaign (doubts_before_fit); those of mistaken columns open the
+/// headline. All outlive the report.
+Report report_on(const Campaign& campaign, const LoopAnswer& answer, const Doubts& doubts);
 
 }  // namespace soilbin::compare

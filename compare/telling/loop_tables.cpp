@@ -6,9 +6,9 @@
 
 #include "bekker_wong/effects/titles.hpp"
 #include "bekker_wong/learned.hpp"
-#include "compare/loop/answer_words.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
@@ -142,13 +142,11 @@ Table candidates_table(const LoopAnswer& answer) {
                values});
   }
   table.add({"none: the base model", "-", "-", "-", number(answer.found().base.fit().chi2), values});
+  table.legend =
+      "Odds to the first: how likely these data are with this set, beside the first one. chi2: the sum of the "
+      "squared residuals, each in standard deviations of the noise; about the number of values where nothing is "
+      "missing.";
   return table;
-}
-
-std::string candidates_columns_in_words() {
-  return "Odds to the first: how likely these data are with this set, beside the first one. chi2: the sum of the "
-         "squared residuals, each in standard deviations of the noise; about the number of values where nothing is "
-         "missing.";
 }
 
 Table parameters_table(const LoopAnswer& answer) {

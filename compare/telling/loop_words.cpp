@@ -1,5 +1,3 @@
-#include "compare/loop/answer_words.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
@@ -188,10 +187,8 @@ std::string beside_the_verdict(const LoopAnswer& answer) {
 
 // What it does to the error.
 
-constexpr double third_digit = 1.005;
 constexpr double worth_saying = 0.95;  // an error that falls by less hardly changes
 
-bool falls(const HeldOutErrors& error) { return error.before > third_digit * error.after; }
 bool falls_clearly(const HeldOutErrors& error) { return error.after < worth_saying * error.before; }
 bool hardly_changes(const HeldOutErrors& error) { return !falls_clearly(error) && !rises(error); }
 
@@ -365,19 +362,6 @@ std::string outlier_sentence(const LoopAnswer& answer) {
 
 }  // namespace
 
-std::vector<const WeightedSet*> sets_shown(const LoopAnswer& answer) {
-  constexpr std::size_t most = 8;
-  std::vector<const WeightedSet*> sets;
-  for (const WeightedSet& w : answer.ambiguity_set()) sets.push_back(&w);
-  const auto listed = [&](const WeightedSet& w) {
-    return std::ranges::any_of(sets, [&](const WeightedSet* one) { return one->ids == w.ids; });
-  };
-  if (!answer.has_candidates()) return sets;
-  for (const WeightedSet& w : answer.found().candidates.sets)
-    if (sets.size() < most && !listed(w)) sets.push_back(&w);
-  return sets;
-}
-
 std::string verdict_sentence(const LoopAnswer& answer) { return verdict_clause(answer) + "."; }
 
 std::string proxy_sentence(const LoopAnswer& answer) {
@@ -448,24 +432,6 @@ std::vector<std::string> explanation(const LoopAnswer& answer) {
   for (std::string& sentence : what_next(answer)) sentences.push_back(std::move(sentence));
   for (std::string& sentence : notes(answer)) sentences.push_back(std::move(sentence));
   return sentences;
-}
-
-std::vector<std::string> forms_in_order(const CandidateModel& candidate) {
-  std::map<std::string, std::string> by_id;
-  for (const Term& term : candidate.terms()) by_id[term.form->id] = term.form->form;
-  std::vector<std::string> forms;
-  for (const std::string& id : candidate.ids) forms.push_back(by_id.at(id));
-  return forms;
-}
-
-bool rises(const HeldOutErrors& error) { return error.after > third_digit * error.before; }
-
-std::vector<int> worse_channels(const LoopAnswer& answer) {
-  std::vector<int> worse;
-  if (!answer.uses_effects()) return worse;
-  for (int c = 0; c < channel_count; ++c)
-    if (rises(answer.validation.channels[c])) worse.push_back(c);
-  return worse;
 }
 
 std::string held_out_words(const CrossValidation& validation) {

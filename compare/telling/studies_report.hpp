@@ -1,10 +1,10 @@
-// Studies and campaigns as one HTML page that a person can read from the top: plain words, plots, tables, provenance.
+// Studies and campaigns as they are told side by side, from the top: plain words, plots, tables, provenance.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "compare/report/page.hpp"
+#include "compare/report/report.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/prediction.hpp"
 
@@ -25,9 +25,9 @@ struct CampaignPart {
   Prediction prediction;
 };
 
-/// `links`: other pages, shown as cards.
-std::string analysis_page(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns,
-                          const PageAbout& about, const std::vector<PageCard>& links = {});
+/// `links`: other pages, shown as cards. Studies and campaigns outlive the report.
+Report report_on(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns,
+                 const std::vector<PageCard>& links = {});
 
 /// Sentences about a study, computed from its answers: the largest pull, the best efficiency, what changes them.
 std::string in_words(const StudyPart& part);

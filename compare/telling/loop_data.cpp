@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "bekker_wong/learned.hpp"
-#include "compare/loop/answer_words.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/telling/loop_report.hpp"
 
 namespace soilbin::compare {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "bekker_wong/effects/titles.hpp"
-#include "compare/loop/answer_words.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/telling/loop_report.hpp"
 
 namespace soilbin::compare {
 namespace {

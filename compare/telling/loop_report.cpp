@@ -1,21 +1,24 @@
-// The loop's report as one page: the answer, the figure that shows it, tables, and folded what stands behind them.
+#include "compare/telling/loop_report.hpp"
+
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "compare/loop/answer_words.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/bars.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/report/page.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 
@@ -188,10 +191,10 @@ std::vector<std::pair<std::string, std::vector<int>>> curves_with_points(const O
   return found;
 }
 
-/// Measured channels against slip with both models as curves, in the channels' units: (name of the curve, sheet), the
-/// one that the effects change most first. Empty where the runs do not lie on curves against slip: fewer than half of
+/// The curves against slip that a figure of the fit shows: (name of the curve, its rows), the one that the effects
+/// change most first. Empty where the runs do not lie on curves against slip: fewer than half of
 /// them have three others at other slips under the same conditions, or there are more than a dozen curves.
-std::vector<std::pair<std::string, Sheet>> curves_of_the_fit(const LoopAnswer& answer) {
+std::vector<std::pair<std::string, std::vector<int>>> curves_of_the_fit(const LoopAnswer& answer) {
   constexpr std::size_t most_curves = 12;
   const Observations& observations = seen(answer);
   auto curves = curves_with_points(observations);
@@ -210,10 +213,9 @@ std::vector<std::pair<std::string, Sheet>> curves_of_the_fit(const LoopAnswer& a
     std::ranges::stable_sort(
         curves, [&](const auto& a, const auto& b) { return mean_square(a.second) > mean_square(b.second); });
   }
-  std::vector<std::pair<std::string, Sheet>> sheets;
-  for (const auto& [label, rows] : curves)
-    sheets.emplace_back(label.empty() ? "all runs" : label, curve_sheet_of(answer, rows));
-  return sheets;
+  for (auto& [label, rows] : curves)
+    if (label.empty()) label = "all runs";
+  return curves;
 }
 
 /// What the base model misses in each channel's unit over one variable, beside what the effects change.
@@ -359,11 +361,11 @@ Table signature_table(const std::vector<const Signature*>& signatures) {
   return table;
 }
 
-/// What the forms presume of the wheel, a paragraph below their table.
-void add_presumptions(Page& page, const std::vector<const Signature*>& signatures, const Tire& wheel) {
+/// What the forms presume of the wheel, a paragraph each below their table.
+Prose presumptions_of(const std::vector<const Signature*>& signatures, const Tire& wheel) {
   std::vector<EffectChoice> forms;
   for (const Signature* s : signatures) forms.push_back({s->term.form->id, s->term.form->form, {}});
-  for (const std::string& sentence : bekker_wong::presumptions(forms, wheel)) page.paragraph(sentence);
+  return Prose{bekker_wong::presumptions(forms, wheel)};
 }
 
 /// The effects whose signatures look most like an accepted one's.
@@ -390,35 +392,6 @@ std::string caption_of_models(const LoopAnswer& answer) {
                              answer.effects().empty() ? " as an empirical correction" : "");
 }
 
-/// The figure that answers: curves where the runs lie on curves, else what the base model misses.
-void add_main_figure(Page& page, const LoopAnswer& answer, const std::vector<Covariate>& variables) {
-  page.section("Measured and modelled", "figure");
-  const auto curves = curves_of_the_fit(answer);
-  if (curves.empty()) {
-    if (variables.empty()) return;
-    page.figure(gap_sheet(answer, variables.front()),
-                "Each run's measured value and the model after, both less the model before: where the two lie "
-                "together, the effects explain what was missing. " +
-                    caption_of_models(answer));
-    return;
-  }
-  std::vector<Choice> parts;
-  Sheet all{""};
-  for (const auto& [label, sheet] : curves) {
-    parts.push_back({label, [&page, &answer, &sheet = sheet] {
-                       page.figure(sheet,
-                                   caption_of_models(answer) + " Curves: at the mean of these runs' conditions.");
-                     }});
-    for (Plot plot : sheet.plots) {
-      plot.title += ": " + label;
-      all.plots.push_back(std::move(plot));
-    }
-  }
-  if (curves.size() > 1)
-    parts.push_back({"all of them", [&page, &answer, &all] { page.figure(all, caption_of_models(answer)); }});
-  page.choices("Runs at", parts, 0);
-}
-
 /// The candidates that the data do not rule out, by their share.
 Bars candidate_bars(const LoopAnswer& answer) {
   Bars bars{"Candidates: share [%]", {"share"}, {}, "%"};
@@ -427,89 +400,141 @@ Bars candidate_bars(const LoopAnswer& answer) {
   return bars;
 }
 
-void add_tables(Page& page, const LoopAnswer& answer) {
-  if (answer.validation.overall.cells > 0) {
-    page.section("Error before and after", "error");
-    page.table(error_table(answer));
+using LoopParts = std::vector<ReportPart>;
+/// The variables of the campaign (variables_by_weight), which the parts of a report share.
+using Variables = std::shared_ptr<const std::vector<Covariate>>;
+
+/// The figure that answers: curves where the runs lie on curves, else what the base model misses.
+void add_main_figure(Report& report, const LoopAnswer& answer, const Variables& variables) {
+  report.add("Measured and modelled", Prose{}, Told::to_look_at, "figure");
+  const auto curves = curves_of_the_fit(answer);
+  if (curves.empty()) {
+    if (variables->empty()) return;
+    report.add(Figure([&answer, variables] { return gap_sheet(answer, variables->front()); },
+                      "Each run's measured value and the model after, both less the model before: where the two lie "
+                      "together, the effects explain what was missing. " +
+                          caption_of_models(answer)),
+               Told::to_look_at);
+    return;
   }
+  Choices choices{"Runs at", {}};
+  std::vector<std::pair<std::string, std::function<Sheet()>>> sheets;
+  for (const auto& [label, rows] : curves) {
+    sheets.emplace_back(label, drawn_once([&answer, rows = rows] { return curve_sheet_of(answer, rows); }));
+    choices.all.emplace_back(label, [&answer, sheet = sheets.back().second] {
+      return LoopParts{{Figure(sheet, caption_of_models(answer) + " Curves: at the mean of these runs' conditions.")}};
+    });
+  }
+  if (curves.size() > 1)
+    choices.all.emplace_back("all of them", [&answer, sheets] {
+      Sheet all{""};
+      for (const auto& [label, sheet] : sheets)
+        for (Plot plot : sheet().plots) {
+          plot.title += ": " + label;
+          all.plots.push_back(std::move(plot));
+        }
+      return LoopParts{{Figure(std::move(all), caption_of_models(answer))}};
+    });
+  report.add(std::move(choices), Told::to_look_at);
+}
+
+/// `told`: by whom; an answer that judges nothing keeps its errors from pages.
+void add_tables(Report& report, const LoopAnswer& answer, Told told) {
+  if (Table errors = error_table(answer); !errors.rows.empty())
+    report.add("Error before and after", std::move(errors), told, "error");
   if (answer.uses_effects()) {
-    page.section(answer.effects().empty() ? "Empirical correction" : "The effects and their size", "effects");
-    page.table(parameters_table(answer));
-    if (!answer.with_candidates().soil_shifts.empty()) page.table(soil_table(answer));
+    report.add(answer.effects().empty() ? "Empirical correction" : "The effects and their size",
+               parameters_table(answer), told, "effects");
+    if (!answer.with_candidates().soil_shifts.empty()) report.add(soil_table(answer), Told::to_look_at);
   }
-  if (answer.has_candidates()) {
-    page.section("Candidates", "candidates");
-    if (answer.ambiguity_set().size() > 1)
-      page.drawing(bars_svg(candidate_bars(answer), {0}), "Share of the evidence of each candidate.");
-    page.table(candidates_table(answer));
-    page.paragraph(candidates_columns_in_words());
-  }
+  if (!answer.has_candidates()) return;
+  report.add("Candidates", Prose{}, told, "candidates");
+  if (answer.ambiguity_set().size() > 1)
+    report.add(Drawings{{bars_svg(candidate_bars(answer), {0})}, "Share of the evidence of each candidate.", "shares"},
+               Told::to_look_at);
+  report.add(candidates_table(answer), told);
 }
 
-void add_gaps(Page& page, const LoopAnswer& answer, const std::vector<Covariate>& variables) {
-  if (variables.empty()) return;
-  page.section("What the base model misses, over each variable", "gaps");
-  std::vector<Choice> parts;
-  for (const Covariate& x : variables)
-    parts.push_back({std::string(condition_view(x.name).title), [&page, &answer, &x] {
-                       page.figure(gap_sheet(answer, x),
-                                   "Each run, less the model before. Runs of one setting stand side by side. " +
-                                       caption_of_models(answer));
-                     }});
-  page.choices("Over", parts, 0);
+void add_gaps(Report& report, const LoopAnswer& answer, const Variables& variables) {
+  if (variables->empty()) return;
+  Choices choices{"Over", {}};
+  for (const Covariate& x : *variables)
+    choices.all.emplace_back(std::string(condition_view(x.name).title), [&answer, variables, &x] {
+      return LoopParts{{Figure(
+          [&answer, variables, &x] { return gap_sheet(answer, x); },
+          "Each run, less the model before. Runs of one setting stand side by side. " + caption_of_models(answer))}};
+    });
+  report.add("What the base model misses, over each variable", std::move(choices), Told::to_look_at, "gaps");
 }
 
-void add_appendix(Page& page, const LoopAnswer& answer, const std::vector<Covariate>& variables) {
-  page.section("Appendix", "appendix");
-  page.folded("Residuals against every variable, in standard deviations of the noise", [&] {
-    for (const Covariate& x : variables)
-      page.figure(residual_sheet(answer, x), "In standard deviations of the noise, before and after.");
-    page.table(dependence_table(answer));
-  });
-  page.folded("Signatures: what each effect would leave in the residual", [&] {
-    if (answer.uses_effects() && !variables.empty())
-      page.figure(signature_sheet(answer, variables.front()),
-                  "Points: what the base model, refitted, leaves; and what the effect changes in the prediction.");
-    const std::vector<const Signature*> signatures = strongest_signatures(answer);
-    page.table(signature_table(signatures));
-    add_presumptions(page, signatures, answer.wheel);
-    if (!answer.effects().empty()) page.table(likeness_table(answer));
-  });
-  page.folded("Noise", [&] {
-    page.table(noise_table(answer));
-    if (answer.validation.overall.cells > 0 && answer.uses_effects())
-      page.paragraph(fmt::format("The cross-validated squared error falls by {} ± {} noise variances a value.",
-                                 number(answer.validation.gain), number(answer.validation.gain_error)));
-  });
+LoopParts residual_parts(const LoopAnswer& answer, const Variables& variables) {
+  LoopParts parts;
+  for (const Covariate& x : *variables)
+    parts.push_back({Figure(residual_sheet(answer, x), "In standard deviations of the noise, before and after.")});
+  parts.push_back({dependence_table(answer)});
+  return parts;
+}
+
+LoopParts signature_parts(const LoopAnswer& answer, const Variables& variables) {
+  LoopParts parts;
+  if (answer.uses_effects() && !variables->empty())
+    parts.push_back(
+        {Figure(signature_sheet(answer, variables->front()),
+                "Points: what the base model, refitted, leaves; and what the effect changes in the prediction.")});
+  const std::vector<const Signature*> signatures = strongest_signatures(answer);
+  parts.push_back({signature_table(signatures)});
+  parts.push_back({presumptions_of(signatures, answer.wheel)});
+  if (!answer.effects().empty()) parts.push_back({likeness_table(answer)});
+  return parts;
+}
+
+LoopParts noise_parts(const LoopAnswer& answer) {
+  LoopParts parts{{noise_table(answer)}};
+  if (answer.validation.overall.cells > 0 && answer.uses_effects())
+    parts.push_back({Prose{{fmt::format("The cross-validated squared error falls by {} ± {} noise variances a value.",
+                                        number(answer.validation.gain), number(answer.validation.gain_error))}}});
+  return parts;
+}
+
+void add_appendix(Report& report, const LoopAnswer& answer, const Variables& variables) {
+  report.add("Appendix",
+             Fold{"Residuals against every variable, in standard deviations of the noise",
+                  [&answer, variables] { return residual_parts(answer, variables); }},
+             Told::on_pages, "appendix");
+  report.add(Fold{"Signatures: what each effect would leave in the residual",
+                  [&answer, variables] { return signature_parts(answer, variables); }});
+  report.add(Fold{"Noise", [&answer] { return noise_parts(answer); }});
 }
 
 }  // namespace
 
-std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const std::vector<std::string>& doubts,
-                      const std::vector<std::string>& column_doubts, const std::string& command) {
-  Page page(
+Report report_on(const Campaign& campaign, const LoopAnswer& answer, const Doubts& doubts) {
+  Report report{
       campaign.name + ": what the model lacks",
       fmt::format(
           "The analytic wheel against {} measured runs: what is missing, how sure that is, and what to measure next",
-          campaign.runs.size()));
-  page.backed_summary(headline(answer, column_doubts));
-  if (const Table next = next_run_table(answer); !next.rows.empty()) page.table(next);
+          campaign.runs.size()),
+      answer.campaign};
+  report.add(Headline{headline(answer, in_words(of_mistaken_columns(doubts)))});
+  if (Table next = next_run_table(answer); !next.rows.empty()) report.add(std::move(next));
   const bool judged = answer.judgement() && (answer.verdict() != Verdict::not_enough_data || answer.has_candidates());
-  const std::vector<Covariate> variables = judged ? variables_by_weight(answer) : std::vector<Covariate>();
-  if (judged) {
-    add_main_figure(page, answer, variables);
-    add_tables(page, answer);
-    add_gaps(page, answer, variables);
-  }
-  if (const std::vector<std::string> more = notes(answer); !more.empty()) {
-    page.section("Notes", "notes");
-    page.list(more);
-  }
-  page.doubts(doubts);
-  if (judged) add_appendix(page, answer, variables);
-  page.section("How to repeat this", "repeat");
-  page.code(command);
-  return page.html();
+  const auto variables =
+      std::make_shared<const std::vector<Covariate>>(judged ? variables_by_weight(answer) : std::vector<Covariate>());
+  if (judged) add_main_figure(report, answer, variables);
+  add_tables(report, answer, judged ? Told::everywhere : Told::in_text);
+  if (judged) add_gaps(report, answer, variables);
+  if (std::vector<std::string> more = notes(answer); !more.empty())
+    report.add("Notes", Items{std::move(more)}, Told::everywhere, "notes");
+  report.add(WarningsHere());
+  if (judged) add_appendix(report, answer, variables);
+  report.data = [&] {
+    nlohmann::ordered_json document = to_json(answer);
+    if (const Doubts columns = of_mistaken_columns(doubts); !columns.empty())
+      document["column_doubts"] = in_words(columns);
+    return document;
+  };
+  report.data_name = "loop";
+  return report;
 }
 
 }  // namespace soilbin::compare

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "compare/attribution/choice.hpp"
 #include "compare/fit/thresholds.hpp"
-#include "compare/loop/answer_words.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/telling/loop_report.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -23,12 +22,6 @@ std::string condition_words(const LoopAnswer& answer) {
                         unit.empty() ? "" : " ", unit);
   }
   return text;
-}
-
-/// Dependences of what the model leaves.
-const std::vector<Dependence>& dependences_left(const LoopAnswer& answer) {
-  const std::vector<Dependence>& after = answer.with_candidates().dependences_after;
-  return after.empty() ? answer.dependences_before : after;
 }
 
 /// What to do where no condition shows on which the rest depends.
@@ -56,18 +49,6 @@ std::vector<std::string> to_show_its_shape(const LoopAnswer& answer) {
                       "pairs of channel and variable: {}).",
                       channel_views[on.channel].title, variable, on.p_value, dependences_left(answer).size(),
                       share_words(on.false_discovery_rate))};
-}
-
-/// The condition of the run that the saved model misses most in a channel.
-OperatingCondition missed_most(const LoopAnswer& answer, int channel) {
-  const Observations& observations = answer.found().base.data().observations;
-  const Eigen::VectorXd residual = answer.model().cell_residual().cwiseAbs();
-  const Cell* most = nullptr;
-  double by = -1;
-  for (std::size_t i = 0; i < observations.cells.size(); ++i)
-    if (const Cell& cell = observations.cells[i]; cell.channel == channel && residual[i] > by)
-      by = residual[i], most = &cell;
-  return observations.rows[most == nullptr ? 0 : most->row];
 }
 
 /// What stands next behind the best set.
@@ -122,56 +103,9 @@ std::vector<std::string> what_next(const LoopAnswer& answer) {
   return sentences;
 }
 
-std::vector<std::string> beyond_what_is_known(const NextRun& next) {
-  std::vector<std::string> names = next.beyond;
-  std::erase_if(names, [&](const std::string& name) { return next.given.contains(name); });
-  return names;
-}
-
-bool proposes_next(const LoopAnswer& answer) {
-  if (!answer.next() || answer.verdict() != Verdict::unknown_effect) return answer.next().has_value();
-  const std::vector<const WeightedSet*> sets = sets_shown(answer);
-  const auto other =
-      std::ranges::find_if(sets, [&](const WeightedSet* set) { return set->ids == answer.next()->separates.back(); });
-  return other == sets.end() ||
-         sets.front()->log_evidence - (*other)->log_evidence < std::log(thresholds::settled_odds);
-}
-
-std::vector<Dependence> sure_dependences(const LoopAnswer& answer) {
-  if (answer.verdict() != Verdict::unknown_effect) return {};
-  std::vector<Dependence> all = dependences_left(answer);
-  std::erase_if(all, [](const Dependence& d) { return d.false_discovery_rate > thresholds::false_discovery_level; });
-  std::ranges::stable_sort(all, [](const Dependence& a, const Dependence& b) {
-    return std::pair(a.p_value, -a.share) < std::pair(b.p_value, -b.share);
-  });
-  return all;
-}
-
-std::vector<OperatingCondition> shape_series(const LoopAnswer& answer) {
-  const std::vector<Dependence> sure = sure_dependences(answer);
-  if (sure.empty() || sure.front().variable == "run") return {};
-  const Observations& observations = answer.found().base.data().observations;
-  constexpr int settings = 5;
-  const std::string& variable = sure.front().variable;
-  return combinations(missed_most(answer, sure.front().channel),
-                      {{variable, evenly(ranges_of(observations).at(variable), settings)}});
-}
-
 std::string setting(double value) {
   if (std::abs(value) < 1e-9) return "0";
   return fmt::format("{:.10g}", three_digits(value));
-}
-
-double rig_setting_of(const LoopAnswer& answer, const OperatingCondition& at, const std::string& condition) {
-  const ConditionView& view = condition_view(condition);
-  const Dataset& data = answer.found().base.data();
-  const double value = view.get(at);
-  if (!std::isfinite(value)) return value;
-  constexpr double anywhere = std::numeric_limits<double>::infinity();
-  const Limits limits = answer.next() ? answer.next()->given : Limits{};
-  const auto given = limits.find(condition);
-  const std::pair<double, double> within = given != limits.end() ? given->second : std::pair(-anywhere, anywhere);
-  return rig_setting(view, value, data.observations, within, own_unit(data.campaign->columns, view).second);
 }
 
 std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const OperatingCondition& at,

@@ -1,4 +1,4 @@
-#include "compare/calibrate/calibration_words.hpp"
+#include "compare/telling/calibration_report.hpp"
 
 #include <fmt/core.h>
 
@@ -69,10 +69,6 @@ Json json_of(const Trial& trial) {
 }
 
 }  // namespace
-
-std::string candidate_name(std::size_t candidate) {
-  return fmt::format("({})", static_cast<char>('a' + static_cast<char>(candidate)));
-}
 
 std::vector<std::string> decision_sentences(const Decision& decision) {
   if (!decision.decided())
@@ -428,6 +424,20 @@ Json to_json(const VirtualTest& test, const CalibrationOptions& options, const C
             {"sentences", calibration_sentences(test, options, calibration)}};
   if (calibration.decision) json["decision"] = to_json(*calibration.decision);
   return json;
+}
+
+Report report_on(const VirtualTest& test, const CalibrationOptions& options, const Calibration& calibration,
+                 bool with_runs) {
+  Report report{"A contact of grains, calibrated",
+                "Contact values of grains that give the measured targets, by virtual tests."};
+  report.add(Sentences(calibration_sentences(test, options, calibration)));
+  for (std::size_t t = 0; t < calibration.analyses.size(); ++t)
+    report.add("What each factor does to " + test.targets[t].name, level_table(test, calibration, t));
+  if (!calibration.candidates.empty()) report.add("Candidates", candidates_table(test, calibration));
+  report.add("Runs", runs_table(test, calibration), with_runs ? Told::everywhere : Told::to_look_at);
+  report.data = [&] { return to_json(test, options, calibration); };
+  report.data_name = "calibration";
+  return report;
 }
 
 }  // namespace soilbin::compare

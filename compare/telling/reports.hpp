@@ -1,0 +1,111 @@
+// Answers as they are told, one function each; those of several kinds of question have headers of their own beside this
+// one. What a report is made of outlives it.
+//
+//   const Report report = report_on(prediction, campaign, scenario, "the declared soil and not fitted");
+//   fmt::print("{}", text_of(report));
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compare/report/report.hpp"
+
+namespace soilbin {
+struct Case;
+struct Scenario;
+struct Soil;
+}  // namespace soilbin
+
+namespace soilbin::dem {
+struct AngleOfReposeResult;
+struct AnnulusRun;
+struct DirectShearResult;
+struct DrawnWheel;
+struct PlateRun;
+struct TiltingBoardResult;
+struct TriaxialResult;
+}  // namespace soilbin::dem
+
+namespace soilbin::compare {
+
+struct AnalyticDrive;
+struct BevameterFit;
+struct BevameterReadings;
+struct Campaign;
+struct DriveSides;
+struct FailureMapResult;
+struct Finding;
+struct MeasuredPlate;
+struct MeasuredPlatesFit;
+struct MeasuredShear;
+struct MeasuredShearFit;
+struct ModelAnswers;
+struct Prediction;
+struct Reproduction;
+struct WheelLimits;
+
+/// What a wheel can do at best: of each answer a table over the slopes and what the steepest one is. `at_limits`:
+/// answers_at_limits of the answers, to which each row's remark belongs.
+Report report_on(const Case& question, const std::vector<WheelLimits>& answers,
+                 const std::vector<ModelAnswers>& at_limits);
+/// Rows of soilbin-limits/1.
+nlohmann::ordered_json limits_rows(const std::vector<WheelLimits>& answers);
+
+/// A campaign beside its prediction: each run as measured and as predicted, then how far off each channel is;
+/// soilbin-predict/1. `soil_from`: where the soil and the effects of the scenario asked come from, "the declared soil
+/// and not fitted".
+Report report_on(const Prediction& prediction, const Campaign& campaign, const Scenario& asked,
+                 const std::string& soil_from);
+
+/// A drive of the analytic wheel: how it ended and where the work went; soilbin-drive/1.
+Report report_on(const AnalyticDrive& drive);
+/// Drives of both models: how each ended, then what differs at the end that both reach steadily;
+/// soilbin-drive-sides/1.
+Report report_on(const DriveSides& drive);
+
+/// What measured plate tests gave: the values with the parts of their errors, each plate by itself, what was set aside,
+/// and the lines that a campaign or a soil file takes; readings and Bekker's form drawn; soilbin-plates/1. `file`: name
+/// of the readings' file.
+Report report_on(const MeasuredPlatesFit& fit, std::span<const MeasuredPlate> plates, const std::string& file);
+
+/// What measured shear tests gave: c, phi and K, each test by itself, and the lines that a campaign or a soil file
+/// takes; readings and Janosi's curves drawn; soilbin-shear/1. `file`: name of the readings' file.
+Report report_on(const MeasuredShearFit& fit, std::span<const MeasuredShear> tests, const std::string& file);
+
+/// What a virtual bevameter found in a soil's grains: the values of the fit beside those of the soil's file, and what
+/// the fit leaves; curves as points, the fit as lines; soilbin-bevameter/1.
+Report report_on(const BevameterFit& fit, const BevameterReadings& readings, const Soil& soil, int packings);
+
+/// Element tests: their runs, what they give, curves; soilbin-element-test/1. `soil`: the name of the soil whose grains
+/// were tested.
+Report report_on(const dem::DirectShearResult& result, const std::string& soil);
+Report report_on(const dem::TriaxialResult& result, const std::string& soil);
+Report report_on(const dem::TiltingBoardResult& result, const std::string& soil);
+Report report_on(const dem::AngleOfReposeResult& result, const std::string& soil);
+Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil);
+Report report_on(const std::vector<dem::AnnulusRun>& runs, const std::string& soil);
+
+/// What was found in a drawing of a wheel and what was mended in it (docs/guide/bring-a-tire.md): triangles, bodies,
+/// unit, axle, size and volume, and each change; drawn from the side and from the front; soilbin-mesh/1. `file`: its
+/// name.
+Report report_on(const dem::DrawnWheel& wheel, const std::string& file);
+
+/// What is told beside a failure map.
+struct FailureMapAbout {
+  std::string name;             ///< "Failure map: longitudinal"
+  std::string resolved_case{};  ///< of the study whose wheel, soil and bin these are, as YAML
+  bool show_rows = false;       ///< on a terminal; a page has them folded
+};
+/// Where the quick estimate may be trusted, where not and to which side it errs, how sure that is; the map at the lugs
+/// and slip that a reader sets; soilbin-failure-map/1.
+Report report_on(const FailureMapResult& result, const FailureMapAbout& about);
+
+/// What a finding asks: "slope of drawbar pull along load, at slip 10 .. 60 %: at least 0".
+std::string claim_in_words(const Finding& finding);
+/// Conclusion and findings against models; folded each finding with its words, figure and intervals;
+/// soilbin-reproduction/1.
+Report report_on(const Reproduction& reproduction);
+
+}  // namespace soilbin::compare
