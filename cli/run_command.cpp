@@ -54,6 +54,7 @@ void check_flags_of_converge(const RunOptions& options) {
       {"--recorded", !bin.recorded.empty()},
       {"--packings", bin.packings != 1},
       {"--half-step", !bin.half_step.empty()},
+      {"--coarser-twin", bin.coarser_twin},
       {"--replay", !bin.replay.empty()},
       {"--paraview", !bin.paraview.empty()},
       {"--plot", !options.outputs.plot.empty()},
@@ -191,7 +192,8 @@ int answer(const RunOptions& options, const Case& question, const Case& whole,
     compare::Watch watch;
     grains.keeping = keeping_of(bin);
     if (asks_grains) grains = grains_of(bin);
-    if (asks_grains && !bin.record.empty()) grains.list = bin.runs(question), watch = shown_runs(grains.settings);
+    if (asks_grains && (!bin.record.empty() || bin.coarser_twin))
+      grains.list = bin.runs(question), watch = shown_runs(grains.settings);
     return compare::answer_study(question, whole, grains, session.place.effects, watch, shown_progress());
   });
   answered.step = step;
@@ -261,6 +263,7 @@ void add_run(CLI::App& app, Session& session) {
   options->tire.add_to(*command);
   options->soil_bin.add_to(*command);
   options->soil_bin.add_half_step_to(*command);
+  options->soil_bin.add_coarser_twin_to(*command);
   options->soil_bin.add_engine_to(*command);
   command
       ->add_flag("--dry-run", options->dry_run,

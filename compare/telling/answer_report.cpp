@@ -104,6 +104,10 @@ std::function<Sheet()> curves_of(const Case& question, const std::vector<ModelAn
   });
 }
 
+bool has_an_answer(const std::vector<RecordedRun>& runs, const OperatingCondition& at) {
+  return std::ranges::any_of(runs, [&](const auto& run) { return run.answer.result && alike(run.answer.at, at); });
+}
+
 }  // namespace
 
 std::vector<std::string> notes_on(const std::vector<RecordedRun>& runs, const std::string& density) {
@@ -112,6 +116,9 @@ std::vector<std::string> notes_on(const std::vector<RecordedRun>& runs, const st
   double seconds = 0, densest = std::numeric_limits<double>::infinity(), loosest = 0;
   for (const RecordedRun& run : runs) {
     seconds += run.seconds;
+    if (!run.answer.result && has_an_answer(runs, run.answer.at))
+      notes.push_back(fmt::format("no answer at {}, bed sample {}, which is left out: {}", in_words(run.answer.at),
+                                  run.packing, run.answer.error.substr(0, run.answer.error.find('\n'))));
     if (run.answer.result && !run.steady)
       notes.push_back(fmt::format("not steady at {}{} (drift {:.3g} standard errors): lengthen the run",
                                   in_words(run.answer.at),
