@@ -124,10 +124,10 @@ void check_flags(const CalibrateOptions& asked, const CLI::App& command, Contact
       if (command.count(flag) > 0) throw InputError(fmt::format("{} has no effect {}", flag, why));
   };
   if (kind == ContactKind::grain_grain) {
-    refuse({"--across"}, "on the shear box\n  hint: it is the tilting board's, --contact tire");
+    refuse({"--across"}, "on sand on sand\n  hint: it is the tilting board's, --contact tire");
   } else {
-    const std::string hint = "on the tilting board\n  hint: it is the shear box's, --contact sand";
-    refuse({"--strength", "--stresses"}, hint);
+    const std::string hint = "on the tilting board\n  hint: it is a test's of sand on sand, --contact sand";
+    refuse({"--test", "--strength", "--stresses"}, hint);
     if (!asked.decision.given()) refuse({"--settling-friction"}, hint);
   }
   if (!asked.beside.empty())

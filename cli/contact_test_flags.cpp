@@ -84,6 +84,8 @@ compare::VirtualTest ContactTestFlags::test(const Soil& of, std::function<void(c
   question.stresses.clear();
   for (const std::string& stress : split(stresses, ","))
     question.stresses.push_back(read_flag("--stresses", stress, {"kPa", above_zero}));
+  named("--test", strength_test, {"triaxial", "direct-shear"});
+  question.test = strength_test == "triaxial" ? compare::StrengthTest::triaxial : compare::StrengthTest::direct_shear;
   named("--strength", strength, {"peak", "residual"});
   question.strength = strength == "peak" ? compare::Strength::peak : compare::Strength::residual;
   question.how.threads = threads;
@@ -96,20 +98,23 @@ compare::VirtualTest ContactTestFlags::test(const Soil& of, std::function<void(c
 void ContactTestFlags::add_to(CLI::App& command) {
   add_value(command, "soil", soil, "SOIL", "a soil of the library, or a file; with grains")->required();
   add_value(command, "--contact", contact, "sand|tire",
-            "sand on sand, by direct shear; or tire on sand, by the tilting board");
+            "sand on sand, by the triaxial cell or by direct shear; or tire on sand, by the tilting board");
+  add_value(command, "--test", strength_test, "triaxial|direct-shear",
+            "sand on sand: by which test; take the one that measured the target");
   add_value(command, "--target", targets, "NAME=VALUE[,SD]",
             "what was measured; repeatable; for sand, by default, the soil's own");
   add_value(command, "--vary", bounds, "NAME=LOW..HIGH",
             "bounds of a number of the contact, in place of the usual ones; repeatable");
   add_value(command, "--keep", kept, "NAME", "keep this number as the soil has it; repeatable");
-  add_value(command, "--strength", strength, "peak|residual", "strength that the shear box is read by");
-  add_value(command, "--stresses", stresses, "P,P,...", "normal stresses of the shear box; 10kPa,20kPa,40kPa");
+  add_value(command, "--strength", strength, "peak|residual", "sand on sand: strength that the test is read by");
+  add_value(command, "--stresses", stresses, "P,P,...",
+            "sand on sand: confining stresses of the cell, normal ones of the shear box; 10kPa,20kPa,40kPa");
   add_value(command, "--settling-friction", settling_friction, settling_type,
             "how the sheared sample, or the soil bin's bed, settles: loose, medium, dense, or a share of friction; 1");
   add_value(command, "--rolling", rolling, "LAW",
             "law of rolling resistance: elastic_plastic, directional, directional_with_twist; the soil's own");
   add_value(command, "--across", across, "N", "grains along a side of the board, 16")->check(whole_number(1, 1000));
-  add_value(command, "--packings", packings, "N", "number of samples of each experiment; shear box 1, board 4")
+  add_value(command, "--packings", packings, "N", "number of samples of each experiment; cell and shear box 1, board 4")
       ->check(whole_number(1, compare::most_packings));
   add_value(command, "--threads", threads, "N", "number of threads; 0: one for each core, fewer for few grains");
 }

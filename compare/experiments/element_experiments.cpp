@@ -23,6 +23,10 @@ class Identity {
     text_ += fmt::format("\n{} {}", name, value);
     return *this;
   }
+  Identity& add(const char* name, const char* word) {
+    text_ += fmt::format("\n{} {}", name, word);
+    return *this;
+  }
   Identity& add(const char* name, const ContactPair& pair) {
     add(name, pair.restitution).add("", pair.sliding_friction).add("", pair.rolling_friction).add("", pair.cohesion);
     add("rolling_damping", pair.rolling_damping);
@@ -79,25 +83,51 @@ double board_step(const GranularSoil& soil) {
   return dem::longest_step(soil) / (directional ? 8 : 4);
 }
 
-/// Sand on sand: direct shear under several stresses; knows the targets friction_angle and cohesion. A seed gives
-/// packings of its own.
-VirtualTest shear_box_test(const ElementExperiment& experiment, const dem::DirectShearSettings& settings,
-                           Strength strength) {
-  Identity identity(strength == Strength::peak ? "direct shear, peak" : "direct shear, residual");
+/// What makes a specimen of sand on sand, and what is asked of it.
+template <class Settings>
+Identity identity_of(const char* name, const ElementExperiment& experiment, const Settings& settings,
+                     Strength strength) {
+  Identity identity(fmt::format("{}, {}", name, strength == Strength::peak ? "peak" : "residual"));
   identity.add(experiment, ContactKind::grain_grain).add(settings.specimen.laws);
   identity.add("settling_friction", settings.specimen.settling_friction).add("dt", settings.specimen.dt);
-  identity.add("packings", settings.packings).add("length", settings.length).add("width", settings.width);
-  identity.add("height", settings.height).add("travel", settings.travel).add("inertial", settings.inertial);
+  identity.add("packings", settings.packings).add("inertial", settings.inertial);
   identity.add("residual_share", settings.residual_share).add("peak_window", settings.peak_window);
   for (const double stress : settings.stresses) identity.add("stress", stress);
   if (experiment.soil.gravity) identity.add("gravity", *experiment.soil.gravity);
+  return identity;
+}
+
+/// The sides of a specimen.
+void add_sides(Identity& identity, const dem::DirectShearSettings& box) {
+  identity.add("length", box.length).add("width", box.width).add("height", box.height);
+  identity.add("travel", box.travel).add("normal stress", "held on the plane that is left");
+}
+void add_sides(Identity& identity, const dem::TriaxialSettings& cell) {
+  identity.add("side", cell.side).add("height", cell.height).add("strain", cell.strain);
+}
+
+dem::DirectShearResult answer_of(const GranularSoil& soil, const dem::DirectShearSettings& box,
+                                 const dem::WorkOptions& how) {
+  return dem::direct_shear(soil, box, how);
+}
+dem::TriaxialResult answer_of(const GranularSoil& soil, const dem::TriaxialSettings& cell,
+                              const dem::WorkOptions& how) {
+  return dem::triaxial(soil, cell, how);
+}
+
+/// Sand on sand: a test of strength under several stresses; knows the targets friction_angle and cohesion. A seed gives
+/// packings of its own.
+template <class Settings>
+VirtualTest strength_test(const char* name, const ElementExperiment& experiment, const Settings& settings,
+                          Strength strength) {
+  Identity identity = identity_of(name, experiment, settings, strength);
+  add_sides(identity, settings);
   VirtualTest test = test_of(experiment, identity.text());
   test.run = [=](const VectorXd& values, std::uint64_t seed) {
     return answered([&] {
-      dem::DirectShearSettings own = settings;
+      Settings own = settings;
       own.specimen.packing = 1 + (seed - 1) * static_cast<std::uint64_t>(settings.packings);
-      const dem::DirectShearResult result =
-          dem::direct_shear(with_values(experiment, ContactKind::grain_grain, values), own, experiment.how);
+      const auto result = answer_of(with_values(experiment, ContactKind::grain_grain, values), own, experiment.how);
       const dem::StrengthLine& line = strength == Strength::peak ? result.peak : result.residual;
       std::vector<Estimate> answer;
       for (const Target& target : experiment.targets)
@@ -106,6 +136,16 @@ VirtualTest shear_box_test(const ElementExperiment& experiment, const dem::Direc
     });
   };
   return test;
+}
+
+template <class Settings>
+Settings specimen_settings(const GranularSoil& granular, const ContactQuestion& question) {
+  Settings settings;
+  settings.packings = question.packings > 0 ? question.packings : 1;
+  settings.specimen.settling_friction = question.settling_friction;
+  static_cast<dem::LawFlags&>(settings.specimen.laws) = dem::laws_of(granular);
+  settings.stresses = question.stresses;
+  return settings;
 }
 
 /// Tire on sand: the tilting board; knows the target board_angle. Mean and standard error over `packings` boards, at
@@ -148,12 +188,11 @@ VirtualTest contact_test(const Soil& soil, const ContactQuestion& question) {
     settings.dt = board_step(granular);
     return tilting_board_test(experiment, settings, question.packings > 0 ? question.packings : 4);
   }
-  dem::DirectShearSettings settings;
-  settings.packings = question.packings > 0 ? question.packings : 1;
-  settings.specimen.settling_friction = question.settling_friction;
-  static_cast<dem::LawFlags&>(settings.specimen.laws) = dem::laws_of(granular);
-  settings.stresses = question.stresses;
-  return shear_box_test(experiment, settings, question.strength);
+  if (question.test == StrengthTest::triaxial)
+    return strength_test("triaxial", experiment, specimen_settings<dem::TriaxialSettings>(granular, question),
+                         question.strength);
+  return strength_test("direct shear", experiment, specimen_settings<dem::DirectShearSettings>(granular, question),
+                       question.strength);
 }
 
 std::vector<Target> targets_of(const Soil& soil, ContactKind kind) {

@@ -11,12 +11,16 @@
 #include "compare/calibrate/contact_values.hpp"
 #include "dem/element_tests/direct_shear.hpp"
 #include "dem/element_tests/tilting_board.hpp"
+#include "dem/element_tests/triaxial.hpp"
 #include "scenario/soil.hpp"
 
 namespace soilbin::compare {
 
-/// Which strength of the shear box counts.
+/// Which strength of the shear box or the cell counts.
 enum class Strength { peak, residual };
+
+/// The test that gives sand on sand its strength; it should be the laboratory's.
+enum class StrengthTest { triaxial, direct_shear };
 
 /// The settings that both tests share.
 struct ElementExperiment {
@@ -31,16 +35,17 @@ struct ContactQuestion {
   ContactKind kind = ContactKind::grain_grain;
   std::vector<Factor> factors;
   std::vector<Target> targets;
-  int packings = 0;                                ///< samples an experiment; 0: shear box 1, board 4
-  Strength strength = Strength::peak;              ///< of the shear box
-  std::vector<double> stresses{10e3, 20e3, 40e3};  ///< of the shear box [Pa]
-  double settling_friction = 1;                    ///< of the shear box, 0 .. 1
+  StrengthTest test = StrengthTest::triaxial;      ///< of sand on sand
+  int packings = 0;                                ///< samples an experiment; 0: cell and shear box 1, board 4
+  Strength strength = Strength::peak;              ///< of cell and shear box
+  std::vector<double> stresses{10e3, 20e3, 40e3};  ///< confining in the cell, normal in the shear box [Pa]
+  double settling_friction = 1;                    ///< of cell and shear box, 0 .. 1
   int across = 16;                                 ///< grains along a side of the board
   dem::WorkOptions how;
 };
 
-/// Sand on sand by the shear box, sand on tire by the tilting board, with the soil's own rolling resistance. Throws
-/// InputError for a soil without grains and for settings that make no sense.
+/// Sand on sand by the triaxial cell or the shear box, sand on tire by the tilting board, with the soil's own rolling
+/// resistance. Throws InputError for a soil without grains and for settings that make no sense.
 VirtualTest contact_test(const Soil& soil, const ContactQuestion& question);
 
 /// The targets that a soil itself tells of a contact: phi and c for sand on sand. Throws InputError where it tells

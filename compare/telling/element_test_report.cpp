@@ -44,6 +44,15 @@ std::string line_text(const char* name, const dem::StrengthLine& line) {
                      number(line.cohesion, 1e-3), degrees(line.friction_angle_without_cohesion));
 }
 
+/// A stress that was held to more than 1 %: which, of which run, and what to do; "" where it was held.
+std::string held_text(const char* name, double stress, std::uint64_t packing, double error) {
+  if (error <= 0.01) return "";
+  return fmt::format("The {} of {} kPa (packing {}) was held to {} %, not to 1 %: a slower test holds it (--inertial).",
+                     name, number(stress / 1e3), packing, number(error * 100));
+}
+
+Json json_of(const dem::HeldStress& held) { return {{"at_peak", held.at_peak}, {"at_residual", held.at_residual}}; }
+
 /// A column of a curve: a member, or what a function makes of a sample.
 template <class Sample, class Of>
 std::vector<double> column(const std::vector<Sample>& curve, const Of& of) {
@@ -91,14 +100,18 @@ Plot panel(const char* title, const char* x) {
 
 Report report_on(const dem::DirectShearResult& result, const std::string& soil) {
   using Sample = dem::ShearSample;
-  Table table{"", {"stress [kPa]", "packing", "void ratio", "peak [deg]", "at [mm]", "residual [deg]", "imbalance"}};
+  Table table{
+      "",
+      {"stress [kPa]", "packing", "void ratio", "peak [deg]", "at [mm]", "residual [deg]", "held to [%]", "imbalance"}};
+  std::vector<std::string> sentences{line_text("peak", result.peak), line_text("residual", result.residual)};
   Json runs = Json::array();
   Plot shear = panel("Shear stress over normal stress [-]", "displacement [mm]");
   Plot lift = panel("Rise of the lid [mm]", "displacement [mm]");
   for (const dem::DirectShearRun& run : result.runs) {
     table.add({number(run.stress / 1e3), std::to_string(run.packing), number(run.void_ratio),
                degrees(angle_of_tangent(run.peak)), number(run.peak_at * 1e3), degrees(angle_of_tangent(run.residual)),
-               fmt::format("{:.1e}", run.imbalance)});
+               number(run.normal.error * 100), fmt::format("{:.1e}", run.imbalance)});
+    sentences.push_back(held_text("normal stress", run.stress, run.packing, run.normal.error));
     const auto way = column(run.curve, &Sample::displacement);
     Json one{{"stress", run.stress},
              {"packing", run.packing},
@@ -107,6 +120,7 @@ Report report_on(const dem::DirectShearResult& result, const std::string& soil) 
              {"peak_ratio", estimate_json(run.peak)},
              {"peak_at", run.peak_at},
              {"residual_ratio", estimate_json(run.residual)},
+             {"normal_stress_held", json_of(run.normal)},
              {"imbalance", run.imbalance},
              {"work", run.work},
              {"work_of_stress", run.work_of_stress},
@@ -121,8 +135,7 @@ Report report_on(const dem::DirectShearResult& result, const std::string& soil) 
     add_line(shear, label, mm, column(run.curve, [](const Sample& s) { return s.shear_stress / s.normal_stress; }));
     add_line(lift, label, mm, column(run.curve, times(&Sample::dilation, 1e3)));
   }
-  return report_of("direct-shear", soil, std::move(table),
-                   {line_text("peak", result.peak), line_text("residual", result.residual)},
+  return report_of("direct-shear", soil, std::move(table), std::move(sentences),
                    {{"mean_diameter", result.mean_diameter},
                     {"peak", json_of(result.peak)},
                     {"residual", json_of(result.residual)},
@@ -135,6 +148,7 @@ Report report_on(const dem::TriaxialResult& result, const std::string& soil) {
   Table table{"",
               {"stress [kPa]", "packing", "void ratio", "peak [deg]", "at strain [%]", "dilation [deg]",
                "residual [deg]", "held to [%]"}};
+  std::vector<std::string> sentences{line_text("peak", result.peak), line_text("residual", result.residual)};
   Json runs = Json::array();
   Plot stress = panel("(s1 - s3)/(s1 + s3) [-]", "axial strain [%]");
   Plot volume = panel("Volumetric strain, contraction positive [%]", "axial strain [%]");
@@ -142,11 +156,13 @@ Report report_on(const dem::TriaxialResult& result, const std::string& soil) {
     table.add({number(run.stress / 1e3), std::to_string(run.packing), number(run.void_ratio),
                degrees(angle_of_sine(run.peak)), number(run.peak_at * 100), number(run.dilation_angle / degree),
                degrees(angle_of_sine(run.residual)), number(run.confining_error * 100)});
+    sentences.push_back(held_text("confining stress", run.stress, run.packing, run.confining_error));
     runs.push_back({{"stress", run.stress},
                     {"packing", run.packing},
                     {"void_ratio", run.void_ratio},
                     {"isotropic_error", run.isotropic_error},
                     {"confining_error", run.confining_error},
+                    {"confining_stress_held", json_of(run.confining)},
                     {"peak_sine", estimate_json(run.peak)},
                     {"peak_at", run.peak_at},
                     {"residual_sine", estimate_json(run.residual)},
@@ -168,8 +184,7 @@ Report report_on(const dem::TriaxialResult& result, const std::string& soil) {
     add_line(stress, label, percent, sine);
     add_line(volume, label, percent, column(run.curve, times(&Sample::volumetric, 100)));
   }
-  return report_of("triaxial", soil, std::move(table),
-                   {line_text("peak", result.peak), line_text("residual", result.residual)},
+  return report_of("triaxial", soil, std::move(table), std::move(sentences),
                    {{"mean_diameter", result.mean_diameter},
                     {"peak", json_of(result.peak)},
                     {"residual", json_of(result.residual)},

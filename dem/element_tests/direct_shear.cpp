@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dem/element_tests/mobilised.hpp"
 #include "dem/surface/shapes.hpp"
 #include "scenario/errors.hpp"
 
@@ -46,6 +45,8 @@ class ShearBox {
   void add_bodies();
   int add_half(const char* name, double low, double high);
   int add_planes(const char* name, const std::vector<Plane>& planes, int material);
+  void step();
+  double plane_area() const { return size_.width * (size_.length - simulation_.body(upper_).position.x); }
   ShearSample sample(std::int64_t steps, DirectShearRun& into);
   void summarise(DirectShearRun& run) const;
   Body& body(int index) { return simulation_.body(index); }
@@ -58,6 +59,7 @@ class ShearBox {
   SteppedWork& work_;
   Simulation simulation_;
   int floor_ = 0, sides_ = 0, lower_ = 0, upper_ = 0, lid_ = 0;
+  HeldForce held_;
   double lid_before_ = 0;
   std::vector<double> imbalance_;
 };
@@ -65,7 +67,7 @@ class ShearBox {
 Setup ShearBox::setup_for(const SettledBed& bed, const WorkOptions& how) {
   Setup setup = specimen_setup(bed, how);
   smooth_ = add_wall_material(setup, soil_, 0);
-  rough_ = add_wall_material(setup, soil_, 1);
+  rough_ = add_gripping_material(setup, soil_);
   setup.numerics.ledger = settings_.ledger;
   return setup;
 }
@@ -99,12 +101,19 @@ void ShearBox::add_bodies() {
   body(lid_).servo = press({0, 0, 1}, stress_, size_.length * size_.width, soil_, simulation_.setup().numerics.dt);
 }
 
+/// One step, the lid pressed so that what crosses the plane of shear is the stress on what is left of it.
+void ShearBox::step() {
+  held_.aim(*body(lid_).servo, stress_ * plane_area());
+  work_.step(simulation_);
+  held_.learn(body(lid_).force.z + body(lower_).force.z);
+}
+
 ShearSample ShearBox::sample(std::int64_t steps, DirectShearRun& into) {
   const double each = 1 / static_cast<double>(steps), dt = simulation_.setup().numerics.dt;
   const Vec3 lid_from = body(lid_).position;
   Vec3 on_lid, on_upper, on_lower, on_rest;
   for (std::int64_t k = 0; k < steps; ++k) {
-    work_.step(simulation_);
+    step();
     on_lid += each * body(lid_).force;
     on_upper += each * body(upper_).force;
     on_lower += each * body(lower_).force;
@@ -146,25 +155,29 @@ DirectShearRun ShearBox::run() {
 }
 
 void ShearBox::summarise(DirectShearRun& run) const {
-  std::vector<double> ratio, way;
+  std::vector<double> ratio, way, normal;
   for (const ShearSample& sample : run.curve) {
     ratio.push_back(sample.shear_stress / sample.normal_stress);
     way.push_back(sample.displacement);
+    normal.push_back(sample.normal_stress);
   }
   const Mobilised found = peak_and_residual(way, ratio, settings_.peak_window * d_, settings_.residual_share);
   run.peak = found.peak, run.residual = found.residual, run.peak_at = found.peak_at;
+  run.normal = held_stress(normal, found, stress_);
   const auto from = static_cast<std::ptrdiff_t>(found.residual_from);
   double sum = 0;
   for (auto it = imbalance_.begin() + from; it != imbalance_.end(); ++it) sum += *it;
   run.imbalance = std::abs(sum) / static_cast<double>(imbalance_.end() - imbalance_.begin() - from);
 }
 
-/// A line through the strengths, at the stresses asked for; none for a single stress.
-StrengthLine line_of(const std::vector<DirectShearRun>& runs, Estimate DirectShearRun::*strength) {
+/// A line through the strengths, at the normal stresses that were measured; none for a single stress.
+StrengthLine line_of(const std::vector<DirectShearRun>& runs, Estimate DirectShearRun::*strength,
+                     double HeldStress::*held) {
   std::vector<StrengthPoint> points;
   for (const DirectShearRun& run : runs) {
     const Estimate ratio = run.*strength;
-    points.push_back({run.stress, {run.stress * ratio.value, run.stress * ratio.std_error}});
+    const double normal = run.normal.*held;
+    points.push_back({normal, {normal * ratio.value, normal * ratio.std_error}});
   }
   return under_two_stresses(runs) ? fit_strength(points) : StrengthLine{};
 }
@@ -186,8 +199,8 @@ DirectShearResult direct_shear(const GranularSoil& soil, const DirectShearSettin
   result.runs = on_packings(
       specimen_recipe(soil, size, settings.specimen), settings.packings, settings.stresses, how, beds,
       [&](const SettledBed& bed, double stress) { return ShearBox(bed, settings, stress, how, work).run(); });
-  result.peak = line_of(result.runs, &DirectShearRun::peak);
-  result.residual = line_of(result.runs, &DirectShearRun::residual);
+  result.peak = line_of(result.runs, &DirectShearRun::peak, &HeldStress::at_peak);
+  result.residual = line_of(result.runs, &DirectShearRun::residual, &HeldStress::at_residual);
   return result;
 }
 

@@ -4,14 +4,20 @@
 //   box.peak.friction_angle.value, box.peak.cohesion.value  // [rad], [Pa]
 //
 // Weightless, so that the normal stress is one number. Walls and flanges of the halves are smooth (no friction), floor
-// and lid as rough as the grains. With smooth walls the vertical balance of the upper half is exact: what crosses the
-// plane of shear is the lid's force less what the upper grains rest on the lower half's flange, T is what lid and upper
-// half push; both are divided by the plane's area that is left, so strength does not depend on how area is corrected.
+// and lid grip: no grain slides or rolls on them. With smooth walls the vertical balance of the upper half is exact: N,
+// what crosses the plane of shear, is the lid's force less what the upper grains rest on the lower half's flange; T is
+// what lid and upper half push. Both are divided by the plane's area A that is left, and the lid is pressed so that N/A
+// stays what was asked for while A shrinks.
+//
+// A short box overstates strength, since its ends do most of the work; plates on which grains slide understate that of
+// a long one; a gap between the halves only tilts the plane, by the angle whose tangent is gap over length, so there is
+// none (docs/lab/element-tests.md).
 #pragma once
 
 #include <vector>
 
 #include "dem/bed/bed_store.hpp"
+#include "dem/element_tests/mobilised.hpp"
 #include "dem/element_tests/specimen.hpp"
 #include "dem/element_tests/strength_line.hpp"
 
@@ -20,9 +26,9 @@ namespace soilbin::dem {
 struct DirectShearSettings {
   SpecimenSettings specimen;
   int packings = 1;  ///< specimens, of seeds specimen.packing, +1, ...: each is sheared under each stress
-  double length = 20, width = 6, height = 10;      ///< of the box, in mean diameters; length along the shear
+  double length = 40, width = 12, height = 10;     ///< of the box, in mean diameters; length along the shear
   std::vector<double> stresses{10e3, 20e3, 40e3};  ///< normal stresses [Pa], at least two for c and phi
-  double travel = 3;                               ///< of the upper half, in mean diameters
+  double travel = 5;                               ///< of the upper half, in mean diameters
   double inertial = 1e-3;                          ///< inertial number of the shear over the height; sets the speed
   double residual_share = 0.4;  ///< of the travel, at its end, over which the residual strength is a mean
   double peak_window = 0.2;     ///< in mean diameters: the peak is the highest mean over so much travel
@@ -34,13 +40,14 @@ struct DirectShearSettings {
 struct ShearSample {
   double displacement = 0;   ///< of the upper half, at the sample's end [m]
   double shear_stress = 0;   ///< [Pa]
-  double normal_stress = 0;  ///< on the plane of shear [Pa]
+  double normal_stress = 0;  ///< N/A on what is left of the plane of shear [Pa]
   double dilation = 0;       ///< rise of the lid since the shear began, at the sample's end [m]
 };
 
 /// One specimen under one stress.
 struct DirectShearRun {
-  double stress = 0;          ///< asked of the lid [Pa]
+  double stress = 0;          ///< asked for on the plane of shear [Pa]
+  HeldStress normal;          ///< N/A as it was measured at the peak and in the residual part [Pa]
   std::uint64_t packing = 0;  ///< seed
   double void_ratio = 0;      ///< in the box, under the lid, before the shear
   double speed = 0;           ///< of the upper half [m/s]

@@ -30,6 +30,18 @@ Mobilised peak_and_residual(std::span<const double> way, std::span<const double>
   out.peak = mean_with_error(curve.subspan(at, wide));
   out.peak.std_error = std::max(out.peak.std_error, out.residual.std_error);
   out.peak_at = (way[at] + way[at + wide - 1]) / 2;
+  out.peak_from = at, out.peak_samples = wide;
+  return out;
+}
+
+HeldStress held_stress(std::span<const double> curve, const Mobilised& strength, double asked) {
+  const auto mean = [](std::span<const double> part) {
+    return std::accumulate(part.begin(), part.end(), 0.0) / static_cast<double>(part.size());
+  };
+  HeldStress out;
+  out.at_peak = mean(curve.subspan(strength.peak_from, strength.peak_samples));
+  out.at_residual = mean(curve.subspan(strength.residual_from));
+  out.error = std::max(std::abs(out.at_peak / asked - 1), std::abs(out.at_residual / asked - 1));
   return out;
 }
 

@@ -66,6 +66,14 @@ int add_wall_material(Setup& setup, const GranularSoil& soil, double share_of_fr
   return setup.materials.add({"wall", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio}, interaction);
 }
 
+int add_gripping_material(Setup& setup, const GranularSoil& soil) {
+  Interaction interaction = interaction_of(soil.grain_grain);
+  interaction.sliding_friction = std::max(1.0, interaction.sliding_friction);
+  interaction.rolling_friction = std::max(1.0, interaction.rolling_friction);
+  return setup.materials.add({"gripping wall", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio},
+                             interaction);
+}
+
 namespace {
 
 ClumpMotion at_rest(const ClumpMotion& motion) { return {.position = motion.position, .rotation = motion.rotation}; }

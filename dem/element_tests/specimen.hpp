@@ -51,6 +51,10 @@ Setup loose_setup(const GranularSoil& soil, double dt, double room, const WorkOp
 /// rolling friction and that of their cohesion; gives its index.
 int add_wall_material(Setup& setup, const GranularSoil& soil, double share_of_friction);
 
+/// Adds a material of plates with teeth, as stiff and as cohesive as the grains, on which they neither slide nor roll:
+/// sliding and rolling friction of 1 or more; gives its index.
+int add_gripping_material(Setup& setup, const GranularSoil& soil);
+
 /// Puts the bed's grains, at rest, where they lie in the bed; the histories of their contacts start anew. Gives the
 /// height of the highest one's top [m].
 double put_grains(Simulation& simulation, const SettledBed& bed);
@@ -59,6 +63,23 @@ double put_grains(Simulation& simulation, const SettledBed& bed);
 /// a layer of Hertz contacts at this stress: a wall that answers its own dashpots in full flips to and fro every step.
 /// `direction` points from the grains to the wall.
 Servo press(const Vec3& direction, double stress, double area, const GranularSoil& soil, double dt);
+
+/// Keeps a force at what is asked while the wall that a servo presses has to move. A servo's speed goes with its error,
+/// so a wall that the grains push back steadily is off by its speed over the gain; what was missing in the past, added
+/// to the target, takes that away. One object for each wall.
+class HeldForce {
+ public:
+  /// Before each step; `asked` [N].
+  void aim(Servo& servo, double asked) { servo.target = asked_ = asked, servo.target += lead_; }
+  /// After it; `held` [N] is what should have been `asked`.
+  void learn(double held) { lead_ += (asked_ - held) / steps; }
+  /// The lead that lets the wall move at `speed` [m/s], away from the grains, without an error.
+  void expect(const Servo& servo, double speed) { lead_ = -speed / servo.gain; }
+
+ private:
+  static constexpr double steps = 200;  // in which a steady error is made good
+  double asked_ = 0, lead_ = 0;
+};
 
 /// I = rate d sqrt(rho/p): inertial number of a shear rate [1/s] at pressure p [Pa]. Below 1e-3 dense grains count as
 /// quasi-static (after GDR MiDi 2004 and da Cruz et al. 2005).

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "dem/element_tests/mobilised.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
@@ -44,6 +43,7 @@ class PressedSpecimen {
   double area(int axis) const { return side((axis + 1) % 3) * side((axis + 2) % 3); }
   double stress(int axis) const;
   void step();
+  void expect_sides_to_yield(double rate);
   void consolidate(TriaxialRun& run);
   void compress(TriaxialRun& run);
   void summarise(TriaxialRun& run) const;
@@ -54,6 +54,7 @@ class PressedSpecimen {
   double stress_;
   SteppedWork& work_;
   Simulation simulation_;
+  std::array<HeldForce, 6> held_;
 };
 
 Setup PressedSpecimen::setup_for(const SettledBed& bed, const WorkOptions& how) const {
@@ -96,8 +97,21 @@ double PressedSpecimen::stress(int axis) const {
 /// One step, the servos aiming at the stress over the areas of now.
 void PressedSpecimen::step() {
   for (int wall = 0; wall < 6; ++wall)
-    if (auto& servo = simulation_.body(wall).servo) servo->target = stress_ * area(wall / 2);
+    if (auto& servo = simulation_.body(wall).servo) held_[wall].aim(*servo, stress_ * area(wall / 2));
   work_.step(simulation_);
+  for (int wall = 0; wall < 6; ++wall)
+    if (const auto& servo = simulation_.body(wall).servo)
+      held_[wall].learn(dot(simulation_.body(wall).force, servo->direction));
+}
+
+/// The four sides give way as those of a specimen that keeps its volume, which is compressed at `rate` [1/s].
+void PressedSpecimen::expect_sides_to_yield(double rate) {
+  for (int wall = 0; wall < 4; ++wall) {
+    Servo& servo = *simulation_.body(wall).servo;
+    const double speed = rate / 4 * side(wall / 2);
+    servo.fastest = std::max(servo.fastest, 4 * speed);
+    held_[wall].expect(servo, speed);
+  }
 }
 
 double PressedSpecimen::work_of_walls() const {
@@ -138,7 +152,8 @@ void PressedSpecimen::consolidate(TriaxialRun& run) {
 void PressedSpecimen::compress(TriaxialRun& run) {
   work_.begin("compressing");
   const double dt = simulation_.setup().numerics.dt, height = side(2), volume = side(0) * side(1) * height;
-  const double speed = shear_rate(settings_.inertial, stress_, soil_) * height;
+  const double rate = shear_rate(settings_.inertial, stress_, soil_), speed = rate * height;
+  expect_sides_to_yield(rate);
   simulation_.body(5).servo.reset();
   simulation_.body(5).velocity = {0, 0, -speed};
   const double way = height * (1 - std::exp(-settings_.strain)), before = work_of_walls();
@@ -168,14 +183,17 @@ void PressedSpecimen::compress(TriaxialRun& run) {
 }
 
 void PressedSpecimen::summarise(TriaxialRun& run) const {
-  std::vector<double> strain, sine;
+  std::vector<double> strain, sine, confining;
   for (const TriaxialSample& sample : run.curve) {
     const double s3 = (sample.lateral_x + sample.lateral_y) / 2;
     strain.push_back(sample.strain);
     sine.push_back((sample.axial - s3) / (sample.axial + s3));
+    confining.push_back(s3);
   }
   const Mobilised found = peak_and_residual(strain, sine, settings_.peak_window, settings_.residual_share);
   run.peak = found.peak, run.residual = found.residual, run.peak_at = found.peak_at;
+  run.confining = held_stress(confining, found, stress_);
+  run.confining_error = std::max(run.confining_error, run.confining.error);
   // The rate of dilation is a slope, noisier than a mean: taken over five windows' width round the peak.
   const double half = 2.5 * settings_.peak_window;
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
@@ -198,12 +216,12 @@ TriaxialRun PressedSpecimen::run() {
 }
 
 /// A line of Mohr's circles; none for a single stress. An error e of the sine is one of s e off the line, s = p/(1 -
-/// sine).
-StrengthLine line_of(const std::vector<TriaxialRun>& runs, Estimate TriaxialRun::*strength) {
+/// sine), p the confining stress that was measured.
+StrengthLine line_of(const std::vector<TriaxialRun>& runs, Estimate TriaxialRun::*strength, double HeldStress::*held) {
   std::vector<StrengthPoint> points;
   for (const TriaxialRun& run : runs) {
     const Estimate sine = run.*strength;
-    const double s = run.stress / (1 - sine.value);
+    const double s = run.confining.*held / (1 - sine.value);
     points.push_back({s, {s * sine.value, s * sine.std_error}});
   }
   return under_two_stresses(runs) ? fit_circles(points) : StrengthLine{};
@@ -224,8 +242,8 @@ TriaxialResult triaxial(const GranularSoil& soil, const TriaxialSettings& settin
   result.runs = on_packings(
       specimen_recipe(soil, size, settings.specimen), settings.packings, settings.stresses, how, beds,
       [&](const SettledBed& bed, double stress) { return PressedSpecimen(bed, settings, stress, how, work).run(); });
-  result.peak = line_of(result.runs, &TriaxialRun::peak);
-  result.residual = line_of(result.runs, &TriaxialRun::residual);
+  result.peak = line_of(result.runs, &TriaxialRun::peak, &HeldStress::at_peak);
+  result.residual = line_of(result.runs, &TriaxialRun::residual, &HeldStress::at_residual);
   return result;
 }
 

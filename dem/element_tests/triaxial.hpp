@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "dem/element_tests/mobilised.hpp"
 #include "dem/element_tests/specimen.hpp"
 #include "dem/element_tests/strength_line.hpp"
 
@@ -36,7 +37,10 @@ struct TriaxialRun {
   std::uint64_t packing = 0;
   double void_ratio = 0;       ///< after isotropic consolidation
   double isotropic_error = 0;  ///< after consolidation, largest |stress/asked - 1| of the three axes
-  double confining_error = 0;  ///< during compression, largest |mean lateral stress/asked - 1|
+  HeldStress confining;        ///< mean of both lateral stresses at the peak and in the residual part [Pa]
+  /// Largest |mean lateral stress/asked - 1|: of either side over the compression, of both at the peak and in the
+  /// residual part.
+  double confining_error = 0;
   std::vector<TriaxialSample> curve;
   Estimate peak, residual;    ///< (s1 - s3)/(s1 + s3) = sin of the mobilised angle [-]
   double peak_at = 0;         ///< strain

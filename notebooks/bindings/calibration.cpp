@@ -262,7 +262,7 @@ struct CalibrationQuestion {
   std::optional<Targets> targets;
   Bounds vary;
   std::vector<std::string> keep;
-  std::string strength = "peak";
+  std::string test = "triaxial", strength = "peak";
   std::optional<std::filesystem::path> store;
   ContactQuestion contact_test;  ///< stresses, settling friction, grains across, packings
   compare::CalibrationOptions options;
@@ -280,6 +280,9 @@ void bind_calibration(py::module_& module) {
     question.kind = kind_of(asked.contact);
     question.factors = factors_of(question.kind, asked.vary, asked.keep);
     question.targets = targets_of(soil, question.kind, asked.targets);
+    if (asked.test != "triaxial" && asked.test != "direct-shear")
+      throw InputError("test: 'triaxial' or 'direct-shear'");
+    question.test = asked.test == "triaxial" ? compare::StrengthTest::triaxial : compare::StrengthTest::direct_shear;
     if (asked.strength != "peak" && asked.strength != "residual") throw InputError("strength: 'peak' or 'residual'");
     question.strength = asked.strength == "peak" ? compare::Strength::peak : compare::Strength::residual;
     question.how.threads = threads;
@@ -293,7 +296,8 @@ void bind_calibration(py::module_& module) {
       keyword("keep", &Q::keep), keyword("design", &Q::options, &Options::design),
       keyword("runs", &Q::options, &Options::most_runs), keyword("near", &Q::options, &Options::near),
       keyword("within", &Q::options, &Options::within), keyword("probability", &Q::options, &Options::probability),
-      keyword("strength", &Q::strength), keyword("stresses", &Q::contact_test, &ContactQuestion::stresses),
+      keyword("test", &Q::test), keyword("strength", &Q::strength),
+      keyword("stresses", &Q::contact_test, &ContactQuestion::stresses),
       keyword("settling_friction", &Q::contact_test, &ContactQuestion::settling_friction),
       keyword("across", &Q::contact_test, &ContactQuestion::across),
       keyword("packings", &Q::contact_test, &ContactQuestion::packings), keyword("seed", &Q::options, &Options::seed),

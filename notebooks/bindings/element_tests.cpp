@@ -42,12 +42,15 @@ void bind_shear_results(py::module_& module) {
                     "of the line through the origin [rad]");
   using R = DirectShearRun;
   py::class_<R>(module, "DirectShearRun", "One specimen under one stress.")
-      .def_readonly("stress", &R::stress, "asked of the lid [Pa]")
+      .def_readonly("stress", &R::stress, "asked for on the plane of shear [Pa]")
       .def_readonly("packing", &R::packing, "seed")
       .def_readonly("void_ratio", &R::void_ratio, "before the shear [-]")
       .def_readonly("peak", &R::peak, "shear over normal stress [-]")
       .def_readonly("residual", &R::residual, "shear over normal stress [-]")
       .def_readonly("peak_at", &R::peak_at, "displacement [m]")
+      .def_property_readonly(
+          "normal", [](const R& run) { return run.normal.at_peak; },
+          "normal stress at the peak, as it was measured [Pa]")
       .def_readonly("work", &R::work, "done on the grains by lid and box [J]")
       .def_readonly("work_of_stress", &R::work_of_stress, "the same by the curve's stresses [J]")
       .def_property_readonly(
@@ -65,11 +68,11 @@ void bind_shear_box(py::module_& module) {
   def_test<S>(
       module, "direct_shear",
       [](const auto& soil, const auto& settings, const auto& how) { return dem::direct_shear(soil, settings, how); },
-      "The shear box (docs/guide/element-tests.md). stresses: normal, on the lid [Pa], at least two for c and phi. "
-      "packings: "
-      "specimens, of seeds packing, +1, ... length, width, height, travel: in mean diameters. settling_friction: 0 "
-      "(densest) .. 1 (loose). inertial: number that sets the speed. Same settings, same bits, for any number of "
-      "threads. Raises InputError, RunStopped.",
+      "The shear box (docs/guide/element-tests.md). stresses: normal, on the plane of shear [Pa], at least two for c "
+      "and phi. packings: specimens, of seeds packing, +1, ... length, width, height, travel: in mean diameters. "
+      "settling_friction: 0 (densest) .. 1 (loose). inertial: number that sets the speed. Same settings, same bits, "
+      "for "
+      "any number of threads. Raises InputError, RunStopped.",
       keyword("stresses", &S::stresses), keyword("packings", &S::packings),
       keyword("packing", &S::specimen, &dem::SpecimenSettings::packing), keyword("length", &S::length),
       keyword("width", &S::width), keyword("height", &S::height), keyword("travel", &S::travel),

@@ -26,6 +26,8 @@ TEST(CalibrateCommand, RefusesWhatMakesNoSenseWithAHint) {
       {"calibrate paper-sand --design L8", "there are L9, L16, L25"},
       {"calibrate paper-sand --runs 5", "less than the 9 of the design L9"},
       {"calibrate paper-sand --probability 100%", "--probability"},
+      {"calibrate paper-sand --test direct-sheer", "did you mean 'direct-shear'"},
+      {"calibrate paper-sand --contact tire --target board_angle=31deg --test triaxial", "--test has no effect"},
       {"calibrate paper-sand --strength top", "'top' is none of peak, residual"},
       {"calibrate paper-sand --rolling elastic_plastik", "did you mean 'elastic_plastic'"},
       {"calibrate paper-sand --decide ding2011-smoot", "did you mean 'ding2011-smooth'"},

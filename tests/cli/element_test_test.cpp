@@ -81,6 +81,13 @@ TEST(SlowElementTestCommand, ShowsInDegreesWhatItsJsonHoldsAsARatio) {
   EXPECT_NEAR(shown, std::atan(peak) * 180 / std::numbers::pi, 0.1) << line;
 }
 
+TEST(SlowElementTestCommand, SaysWhereTheStressWasNotHeld) {
+  const std::string cell = "element-test triaxial paper-sand --size 0.5 --stress 20kPa --threads 1";
+  EXPECT_THAT(soilbin(cell).out, Not(HasSubstr("not to 1 %")));
+  EXPECT_THAT(soilbin(cell + " --inertial 0.05").out,
+              HasSubstr("The confining stress of 20.00 kPa (packing 1) was held to "));
+}
+
 TEST(SlowElementTestCommand, PressesPlatesOfTheSizeThatIsGiven) {
   const std::string plates = "element-test plate paper-sand --size 0.5 --threads 1 --json";
   const Outcome in_grains = soilbin(plates);  // 5, 7 and 9 of 40 mm, to a sinkage of 2

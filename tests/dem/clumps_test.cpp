@@ -334,7 +334,8 @@ TEST(SlowGrainsOfSeveralSpheres, ShearAtAHigherStressThanSpheres) {
     soil.youngs_modulus = 2e7;
     soil.grain_grain.rolling_friction = 0, soil.grain_grain.sliding_friction = 0.5;
     DirectShearSettings settings;
-    settings.specimen.laws.rolling = RollingLaw::none, settings.stresses = {10e3}, settings.travel = 2;
+    settings.specimen.laws.rolling = RollingLaw::none, settings.stresses = {10e3};
+    settings.length = 20, settings.width = 6, settings.travel = 2;
     const DirectShearResult result = direct_shear(soil, settings, test::with_threads(1));
     return result.runs.front().peak.value;
   };

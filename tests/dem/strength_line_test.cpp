@@ -84,6 +84,36 @@ TEST(Mobilised, FindsAPlateauAfterAPeak) {
   EXPECT_EQ(found.residual_from, 60u);
 }
 
+TEST(Mobilised, TellsHowAStressWasHeldWhereTheStrengthIsRead) {
+  std::vector<double> way, strength, stress;
+  for (int k = 0; k < 100; ++k) {
+    way.push_back(0.01 * (k + 1));
+    const bool peak = k >= 20 && k < 30;
+    strength.push_back(peak ? 0.8 : 0.5);
+    stress.push_back(peak ? 10.3e3 : k >= 60 ? 9.9e3 : 20e3);
+  }
+  const HeldStress held = held_stress(stress, peak_and_residual(way, strength, 0.1, 0.4), 10e3);
+  EXPECT_NEAR(held.at_peak, 10.3e3, 1e-6);
+  EXPECT_NEAR(held.at_residual, 9.9e3, 1e-6);
+  EXPECT_NEAR(held.error, 0.03, 1e-12);
+}
+
+// Grains that give way at a steady speed push a servo's wall off by that speed over its gain; the lead takes that away.
+TEST(HeldForce, HasNoErrorAtASteadySpeed) {
+  const double asked = 100, stiffness = 1e5, yielding = 0.01, dt = 1e-4;  // [N], [N/m], [m/s], [s]
+  Servo servo{.direction = {1, 0, 0}, .target = asked, .gain = 1e-2};
+  HeldForce held;
+  double force = asked, gap = 0;
+  for (int step = 0; step < 20000; ++step) {
+    held.aim(servo, asked);
+    const double speed = servo.gain * (force - servo.target);
+    gap += (yielding - speed) * dt, force = asked + stiffness * gap;
+    held.learn(force);
+  }
+  EXPECT_NEAR(force, asked, 1e-6);
+  EXPECT_NEAR(servo.target, asked - yielding / servo.gain, 1e-6);  // off by 1 % without the lead
+}
+
 TEST(Rates, InertialNumberAndRateAreInverse) {
   const GranularSoil soil = test::soft_soil();
   EXPECT_NEAR(inertial_number(shear_rate(1e-3, 20e3, soil), 20e3, soil), 1e-3, 1e-15);

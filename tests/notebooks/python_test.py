@@ -650,7 +650,7 @@ class Calibrations(unittest.TestCase):
 
     def test_what_makes_no_sense_is_refused(self):
         for wrong in ({"contact": "tyre"}, {"contact": "tire"}, {"targets": {"angle": 0.5}}, {"keep": ["cohesive"]},
-                      {"vary": {"sliding_friction": (0.8, 0.2)}}, {"design": "L8"}, {"strength": "top"}):
+                      {"vary": {"sliding_friction": (0.8, 0.2)}}, {"design": "L8"}, {"strength": "top"}, {"test": "box"}):
             with self.assertRaises(soilbin.InputError, msg=str(wrong)):
                 compare.calibrate("paper-sand", **{"progress": None, **wrong})
         with self.assertRaises(soilbin.InputError):

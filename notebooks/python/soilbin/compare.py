@@ -130,26 +130,26 @@ def calibrate(soil: Union[Soil, str], contact: str = "sand", *,
               targets: Optional[Mapping[str, Union[Estimate, float]]] = None,
               vary: Mapping[str, tuple[float, float]] = {}, keep: Sequence[str] = (), design: str = "L9",
               runs: int = 30, near: float = 0.05, within: float = 0.03, probability: float = 0.9,
-              strength: str = "peak", stresses: Sequence[float] = (10e3, 20e3, 40e3), settling_friction: float = 1,
-              across: int = 16, packings: int = 0, seed: int = 1, threads: int = 0,
+              test: str = "triaxial", strength: str = "peak", stresses: Sequence[float] = (10e3, 20e3, 40e3),
+              settling_friction: float = 1, across: int = 16, packings: int = 0, seed: int = 1, threads: int = 0,
               store: Union[str, Path, None] = None, progress: Progress = "shown") -> Calibration:
     """Contacts of a soil's grains from virtual element tests (docs/theory/calibration.md).
 
-    contact: "sand", grains on grains by the shear box, or "tire", grains on the tire by the tilting board. targets: what
-    was measured, Estimates in SI: friction_angle [rad] and cohesion [Pa] of sand (absent: the soil's own), board_angle
+    contact: "sand", grains on grains by `test`, "triaxial" or "direct-shear" (take the one that measured the target), or
+    "tire", grains on the tire by the tilting board. targets: what was measured, Estimates in SI: friction_angle [rad] and cohesion [Pa] of sand (absent: the soil's own), board_angle
     [rad] of a tire. vary: other bounds of a contact's numbers [SI]; keep: numbers that aren't varied. design: "L9", "L16"
     or "L25". runs: experiments at most. near: share of a target within which candidates lie; within, probability: it ends
     where each target is met within this share with this probability; all in 0 .. 1. strength: "peak" or "residual";
-    stresses [Pa], settling_friction 0 .. 1: of the shear box. across: grains along a side of the board. packings: samples
-    an experiment; 0: shear box 1, board 4. seed: of packings and search. store: a file that keeps finished experiments,
+    stresses [Pa], settling_friction 0 .. 1: of cell and shear box. across: grains along a side of the board. packings: samples
+    an experiment; 0: cell and shear box 1, board 4. seed: of packings and search. store: a file that keeps finished experiments,
     so that stopped work goes on; None: none. Raises InputError for a question that makes no sense, NoSolution where too
     many experiments fail to learn from the rest.
     """
     known = find_soil(soil) if isinstance(soil, str) else soil
     asked = None if targets is None else dict(targets)
     return _soilbin.calibrate(known, contact=contact, targets=asked, vary=dict(vary), keep=list(keep), design=design,
-                              runs=runs, near=near, within=within, probability=probability, strength=strength,
-                              stresses=list(stresses), settling_friction=settling_friction, across=across,
+                              runs=runs, near=near, within=within, probability=probability, test=test,
+                              strength=strength, stresses=list(stresses), settling_friction=settling_friction, across=across,
                               packings=packings, seed=seed, store=store, threads=threads, progress=told_to(progress))
 
 

@@ -43,13 +43,15 @@ __all__ = [
 
 
 def direct_shear(soil: GranularSoil, stresses: Sequence[float] = (10e3, 20e3, 40e3), *, packings: int = 1,
-                 packing: int = 1, length: float = 20, width: float = 6, height: float = 10, travel: float = 3,
+                 packing: int = 1, length: float = 40, width: float = 12, height: float = 10,
+                 travel: float = 5,
                  settling_friction: float = 1, rolling: RollingLaw = RollingLaw.elastic_plastic, inertial: float = 1e-3,
                  threads: int = 0, progress: Progress = "shown") -> DirectShearResult:
     """The shear box (docs/guide/element-tests.md).
 
-    stresses: normal stresses on the lid [Pa], at least two for c and phi. packings: specimens, of seeds packing,
-    packing + 1, ... length, width, height, travel: in mean diameters of the grains. settling_friction: 0 (densest) .. 1
+    stresses: normal stresses on the plane of shear [Pa], at least two for c and phi. packings: specimens, of seeds
+    packing, packing + 1, ... length, width, height, travel: in mean diameters of the grains; a box shorter than the
+    default one overstates strength. settling_friction: 0 (densest) .. 1
     (loose). inertial: inertial number of the shear, which sets its speed. threads: 0, one a core or fewer; changes no
     bit. Raises InputError for settings that make no sense, RunStopped.
     """
