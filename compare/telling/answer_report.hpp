@@ -17,8 +17,11 @@ struct PrintedValue {
   std::string name, value, unit;
 };
 
+/// The unit in which forces are told.
+enum class ForcesIn { newtons, kilonewtons };
+
 /// What an answer says: four results with standard errors, efficiency, angles, budget.
-std::vector<PrintedValue> printed_values(const TractionResult& result);
+std::vector<PrintedValue> printed_values(const TractionResult& result, ForcesIn unit = ForcesIn::newtons);
 
 /// A table of each model, a line an answer, the conditions that vary in the first columns.
 std::vector<ReportPart> study_parts(const std::vector<ModelAnswers>& study);

@@ -7,13 +7,13 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/comparison_report.hpp"
 #include "compare/telling/comparison_words.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/mapping_writer.hpp"
 
 namespace soilbin::compare {

@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "compare/doubts/doubts.hpp"
-#include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
@@ -54,7 +54,7 @@ std::string within_in_words(const WheelLimits& answer) {
 }
 
 Table slopes_table(const WheelLimits& answer) {
-  Table table{fmt::format("{}, load {:.6g} N", answer.model.label, answer.at.load),
+  Table table{fmt::format("{}, load {:.6g} N", model_in_words(answer.model.label), answer.at.load),
               {"slope [deg]", "slip to climb it [%]", "largest pull [N]", "slip of the largest pull [%]"}};
   for (const SlopeRow& row : answer.slopes)
     table.add({number(row.slope / degree), slip_in_words(row), number({row.best.drawbar_pull, row.pull_error}),
