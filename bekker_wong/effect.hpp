@@ -159,6 +159,8 @@ struct EffectForm {
   std::string steady_only = {};
   /// The values of the tire that the form reads and that a tire may leave out, each with what is taken instead.
   std::vector<Presumption> presumes = {};
+  /// The values of the tire that the form reads where a tire has them, and does well without: "deflection".
+  std::vector<std::string> tire_values = {};
   /// The conditions that the form reads, of those that only some effects do and about which no parameter is centred:
   /// "pass", "speed". Of a learned form: each of its variables.
   std::vector<std::string> conditions = {};
@@ -171,8 +173,8 @@ const std::vector<EffectForm>& effect_catalogue();
 std::vector<std::string> effect_ids();
 
 /// Whether a form's answer depends on a condition ("pass", "speed", "moisture", "position", "run") or on a value of the
-/// tire ("lugs", "lugs.count", "inflation_pressure"), by what its description says. Where a question leaves the
-/// condition out, the form changes nothing; for the tire's value it presumes one.
+/// tire ("lugs", "lugs.count", "inflation_pressure", "deflection"), by what its description says. Where a question
+/// leaves the condition out, the form changes nothing; for the tire's value it presumes one.
 bool depends_on(const EffectForm& form, std::string_view key);
 
 /// The form that a choice names. Throws InputError with the nearest right word for an unknown id, form or parameter,

@@ -13,10 +13,10 @@
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
 #include "compare/calibrate/published_sets.hpp"
-#include "compare/measured/csv.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/telling/calibration_report.hpp"
 #include "scenario/atomic_file.hpp"
+#include "scenario/csv.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -71,7 +71,7 @@ fs::path records_beside(const fs::path& store) {
 int set_beside(const CalibrateOptions& asked, const compare::VirtualTest& test, compare::ExperimentStore& store,
                Shown& shown) {
   std::vector<compare::PublishedSet> sets =
-      compare::parse_published_sets(read_source_text(asked.beside, compare::largest_csv), test);
+      compare::parse_published_sets(read_source_text(asked.beside, largest_csv), test);
   compare::run_sets(sets, test, asked.options.seed, store, shown.of_runs());
   clear_progress_line();
   fmt::print("{}", as_text(compare::beside_table(test, sets)));

@@ -10,9 +10,9 @@
 #include "cli/progress.hpp"
 #include "cli/rig_flags.hpp"
 #include "cli/text_output.hpp"
-#include "compare/measured/csv.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/test_design/planned_runs_words.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
 
@@ -37,7 +37,7 @@ void print_design(const compare::TestDesign& design) {
 
 /// Throws InputError for a file that holds anything but these rows: somebody has filled them in.
 void refuse_other_rows(const std::string& file, const std::string& rows) {
-  if (!std::filesystem::is_regular_file(file) || read_bytes(file, compare::largest_csv) == rows) return;
+  if (!std::filesystem::is_regular_file(file) || read_bytes(file, largest_csv) == rows) return;
   throw InputError({file}, "holds other rows than this plan, and stays as it is", "",
                    "give --csv another name, or delete the file");
 }

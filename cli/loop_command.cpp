@@ -67,7 +67,7 @@ void add_loop(CLI::App& app, Session& session) {
   asked->outputs.add_to(*command, {.json = "the answer as JSON, soilbin-loop/1"});
   add_file(*command, "--save-model", asked->model, "FILE.yaml",
            "write soil and effects as a case that other commands take");
-  command->add_flag("--next", asked->next, "say only what to measure next");
+  CLI::Option* const next = command->add_flag("--next", asked->next, "say only what to measure next");
   add_limits_of_the_rig(
       *command, asked->limits,
       "for what to measure next: range that the rig can reach, where it is not the campaign's own; repeatable");
@@ -75,7 +75,9 @@ void add_loop(CLI::App& app, Session& session) {
             "parts into which the conditions are divided; each is predicted from the others; 5")
       ->check(whole_number(2, 50));
   add_value(*command, "--seed", asked->seed, "N", "seed of the simulations and the folds");
-  command->add_flag("--details", asked->details, "with --json: what stands behind the answer");
+  CLI::Option* const json = command->get_option("--json");
+  json->excludes(next);  // it says all, and what is next under next_test
+  command->add_flag("--details", asked->details, "with --json: what stands behind the answer")->needs(json);
   command->footer("Example: soilbin loop cmu-smooth --report loop.html --save-model fitted.yaml");
   command->callback([=, &session] { session.action = [=, &session] { return loop(*asked, session); }; });
 }

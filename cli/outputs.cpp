@@ -14,8 +14,8 @@
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
-#include "compare/measured/csv.hpp"
 #include "scenario/atomic_file.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
 
@@ -57,7 +57,7 @@ void Outputs::file(const std::string& name, const std::function<std::string()>& 
 }
 
 std::string CsvOutput::in_dialect(std::string csv) const {
-  return decimal_comma ? compare::with_decimal_commas(csv) : std::move(csv);
+  return decimal_comma ? with_decimal_commas(csv) : std::move(csv);
 }
 
 void CsvOutput::needs_a_file(bool other_given, const char* other) const {

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -109,6 +110,33 @@ void describe(Visitor& v, std::type_identity<Lugs>) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, std::type_identity<TireDeflection>) {
+  using D = TireDeflection;
+  v.number("load", &D::load, Measure{"kN", above_zero}, Need::required, "on the tire, on firm flat ground");
+  v.number("pressure", &D::pressure, Measure{"kPa", zero_or_more}, Need::required, "of inflation");
+  v.number("deflection", &D::deflection, Measure{"mm", above_zero}, Need::required,
+           "by how much the axle comes nearer to the ground");
+}
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<DeflectionTable>) {
+  v.text("source", &DeflectionTable::source, Need::optional, "where the table comes from");
+  v.list("rows", &DeflectionTable::rows, Need::required, "of one load, pressure and deflection each");
+}
+
+/// "at 150 kPa the tire deflects by 40 mm under 20 kN, ..."; "" for a table that can be read off.
+std::string contradiction(const DeflectionTable& table);
+
+/// The rows of a T that a file may also name as a CSV, whose columns are the keys of a row, each with its unit; nothing
+/// for most structs.
+template <class T>
+inline constexpr std::nullptr_t rows_in_csv = nullptr;
+template <>
+inline constexpr std::vector<TireDeflection> DeflectionTable::*rows_in_csv<DeflectionTable> = &DeflectionTable::rows;
+
+std::string contradiction(const Tire& tire);
+
+template <class Visitor>
 void describe(Visitor& v, std::type_identity<Tire>) {
   v.text("name", &Tire::name, Need::optional, "what to call the wheel");
   v.text("source", &Tire::source, Need::optional, "where the wheel as a whole is described");
@@ -120,6 +148,8 @@ void describe(Visitor& v, std::type_identity<Tire>) {
            "read by the effect tire_flexibility alone; without it the wheel is rigid");
   v.number("carcass_pressure", &Tire::carcass_pressure, Measure{"kPa", zero_or_more}, Need::optional,
            "pressure that the carcass itself carries (Wong's p_c)");
+  v.group("deflection", &Tire::deflection, Need::optional,
+          "the maker's load-deflection table: a CSV with columns such as load_kN, pressure_kPa, deflection_mm");
 }
 
 template <class Visitor>

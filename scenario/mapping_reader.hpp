@@ -54,6 +54,18 @@ int read_integer(const YamlNode& node, int lowest, const Reading& reading);
 /// The place of a word among the right ones.
 std::size_t read_word(const YamlNode& node, const std::vector<std::string>& right, const Reading& reading);
 
+/// A column of numbers that a CSV must have.
+struct CsvColumn {
+  std::string key;  ///< "load"; the header is the key with its unit: load_kN, load [kN]
+  Measure measure;
+};
+
+/// The rows of a CSV that a file names by a path relative to itself, the columns' numbers [SI] in their order. Throws
+/// InputError with the place in the CSV for a column that is missing, unknown or has no unit, and for a number out of
+/// its range.
+std::vector<std::vector<double>> read_csv_columns(const YamlNode& path, const std::vector<CsvColumn>& columns,
+                                                  const Reading& reading);
+
 /// Reads one word of an enum.
 template <class E>
 E read_choice(const YamlNode& node, const Reading& reading) {
@@ -106,7 +118,13 @@ class ReadInto {
 
   template <class U>
   void group(const char* key, std::optional<U> T::*member, Need need, const char* meaning) {
-    if (const YamlNode* node = find(key, need, meaning)) descend(key, *node, (into_.*member).emplace());
+    const YamlNode* node = find(key, need, meaning);
+    if (node == nullptr) return;
+    U& inner = (into_.*member).emplace();
+    if constexpr (!std::is_null_pointer_v<std::decay_t<decltype(rows_in_csv<U>)>>) {
+      if (node->is_scalar()) return read_rows(*node, inner.source, inner.*rows_in_csv<U>, inner);
+    }
+    descend(key, *node, inner);
   }
 
   template <class U>
@@ -142,6 +160,23 @@ class ReadInto {
     below.path = reading_.path + key + ".";
     expect_keys(node, keys_of<U>(), below);
     read_into(node, inner, below);
+  }
+
+  /// Rows of numbers from the CSV that a scalar names.
+  template <class Row, class Whole>
+  void read_rows(const YamlNode& path, std::string& source, std::vector<Row>& rows, const Whole& whole) {
+    std::vector<CsvColumn> columns;
+    std::vector<double Row::*> members;
+    each_member<Row>([&](const char* key, double Row::*member, const Measure& measure, const char*) {
+      columns.push_back({key, measure});
+      members.push_back(member);
+    });
+    for (const std::vector<double>& numbers : read_csv_columns(path, columns, reading_)) {
+      Row& row = rows.emplace_back();
+      for (std::size_t i = 0; i < members.size(); ++i) row.*members[i] = numbers[i];
+    }
+    source = path.scalar;
+    if (const std::string wrong = contradiction(whole); !wrong.empty()) reading_.refuse(path, wrong);
   }
 
   const YamlNode& mapping_;

@@ -8,15 +8,16 @@
 namespace soilbin {
 
 std::string si_unit_of(const std::string& unit) {
-  static constexpr std::array<std::pair<const char*, const char*>, 9> other = {{{"mm", "m"},
-                                                                                {"kPa", "Pa"},
-                                                                                {"MPa", "Pa"},
-                                                                                {"deg", "rad"},
-                                                                                {"%", "-"},
-                                                                                {"rpm", "rad/s"},
-                                                                                {"kJ/m^3", "J/m^3"},
-                                                                                {"kN/m^(n+1)", "N/m^(n+1)"},
-                                                                                {"kN/m^(n+2)", "N/m^(n+2)"}}};
+  static constexpr std::array<std::pair<const char*, const char*>, 10> other = {{{"mm", "m"},
+                                                                                 {"kPa", "Pa"},
+                                                                                 {"MPa", "Pa"},
+                                                                                 {"kN", "N"},
+                                                                                 {"deg", "rad"},
+                                                                                 {"%", "-"},
+                                                                                 {"rpm", "rad/s"},
+                                                                                 {"kJ/m^3", "J/m^3"},
+                                                                                 {"kN/m^(n+1)", "N/m^(n+1)"},
+                                                                                 {"kN/m^(n+2)", "N/m^(n+2)"}}};
   for (const auto& [file, si] : other)
     if (unit == file) return si;
   return unit;

@@ -74,7 +74,10 @@ class SchemaOf {
 
   template <class U>
   void group(const char* key, std::optional<U> T::*, Need need, const char* meaning) {
-    add_group<U>(key, need, meaning);
+    if constexpr (std::is_null_pointer_v<std::decay_t<decltype(rows_in_csv<U>)>>)
+      add_group<U>(key, need, meaning);
+    else
+      add(key, need, {{"anyOf", {text_schema("path of a CSV"), object_schema<U>()}}, {"description", meaning}});
   }
 
   template <class U>

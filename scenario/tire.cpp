@@ -40,6 +40,7 @@ std::string in_words(const Tire& tire, std::string_view remark) {
   else
     words += fmt::format("lugs of {:.4g} mm", 1000 * tire.lugs.height);
   if (tire.inflation_pressure) words += fmt::format(", {:.4g} kPa", *tire.inflation_pressure / 1000);
+  if (tire.deflection) words += fmt::format(", load-deflection table of {} rows", tire.deflection->rows.size());
   return words.append(remark) + ")";
 }
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scenario/estimate.hpp"
 #include "scenario/operating_condition.hpp"
@@ -33,8 +34,24 @@ struct Lugs {
   std::optional<double> angle = {};  ///< [rad] between a bar and the axle, where the pattern has one
 };
 
+/// One row of a tire maker's load-deflection table, measured on firm flat ground.
+struct TireDeflection {
+  double load = 0.0;        ///< W [N], > 0
+  double pressure = 0.0;    ///< p_i [Pa], >= 0
+  double deflection = 0.0;  ///< f [m], > 0
+};
+
+/// A tire maker's load-deflection table (scenario/deflection_table.hpp reads it off).
+struct DeflectionTable {
+  std::string source;  ///< the file that it was read from
+  std::vector<TireDeflection> rows;
+};
+
 /// The key of Tire::carcass_pressure in files, and its name among the values that a fit found.
 inline constexpr const char* carcass_pressure_key = "carcass_pressure";
+
+/// The key of Tire::deflection in files.
+inline constexpr const char* deflection_key = "deflection";
 
 /// A wheel as the soil meets it. Radius and width belong to the tread base, without lugs.
 struct Tire {
@@ -44,6 +61,7 @@ struct Tire {
   Lugs lugs;
   std::optional<double> inflation_pressure;      ///< [Pa]; absent: rigid
   std::optional<Estimate> carcass_pressure;      ///< [Pa] pressure that the carcass itself carries (Wong's p_c)
+  std::optional<DeflectionTable> deflection{};   ///< of firm ground, its maker's; absent: presumed by effects
   std::string source{};                          ///< where the wheel as a whole is described
   std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "lugs.height"
 };

@@ -70,7 +70,8 @@ std::vector<std::string> effect_ids() {
 bool depends_on(const EffectForm& form, std::string_view key) {
   const auto is = [&](const std::string& condition) { return condition == key; };
   const auto read = [&](const Presumption& p) { return p.key == key || p.key.starts_with(std::string(key) + "."); };
-  return std::ranges::any_of(form.conditions, is) || std::ranges::any_of(form.presumes, read) ||
+  return std::ranges::any_of(form.conditions, is) || std::ranges::any_of(form.tire_values, is) ||
+         std::ranges::any_of(form.presumes, read) ||
          std::ranges::any_of(form.parameters, is, &EffectParameter::centred_on);
 }
 

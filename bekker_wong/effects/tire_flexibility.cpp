@@ -12,6 +12,12 @@
 // A form is a law S: the tread reaches the depth y = S(d) where the rigid circle would reach d = r (cos theta -
 // cos theta_1). Slope, arc and belt travel follow from the outline y(x), x = r sin theta. The contact ends where
 // the circle rises from the rut behind the axle: theta_2 = -theta_f, r (1 - cos theta_f) = deflection under the axle.
+// A maker's load-deflection table, where the tire has one, is read by the two forms that have a deflection of their
+// own. Both then give way on firm ground as the table says, at the default a; f goes with a^2. The spring's stiffness
+// is that of a circle whose segment of depth f carries W, W = b Int d dx/softness; the pressure's distribution is the
+// contact's own, so it is met where sigma is largest under the axle (c1 = c2 = 0). The cap has no deflection on firm
+// ground but W/(2 b p_g) long, a chord, which is longer than a tire's print of that deflection: it keeps to p_g.
+//
 // S takes the soil that acts, P(y), with all that other effects make of it: the tread rests where soil and carcass
 // press alike. Of the base model's power law S is known in closed form; of another law it is found at each node.
 #include <algorithm>
@@ -24,6 +30,7 @@
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/effects/forms.hpp"
 #include "bekker_wong/node_functions.hpp"
+#include "scenario/deflection_table.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
@@ -49,6 +56,23 @@ constexpr Presumption inflation_pressure = {.key = "inflation_pressure",
                                                   return carries ? t.inflation_pressure : std::nullopt;
                                                 },
                                             .presumed = [](const Tire&) { return 100e3; }};
+
+/// Of a tire whose maker's table has the carcass in it.
+constexpr Presumption carcass_beside_table = {
+    .key = carcass_pressure.key,
+    .name = carcass_pressure.name,
+    .unit = carcass_pressure.unit,
+    .rule = carcass_pressure.rule,
+    .declared = [](const Tire& t) { return t.deflection ? std::optional(0.0) : carcass_pressure.declared(t); },
+    .presumed = carcass_pressure.presumed};
+
+constexpr double spring_half_angle = 0.3, circle_half_angle = 0.5;  // [rad] defaults of a
+
+/// f of the maker's table under this share of the load, short of the radius.
+double told_deflection(const DeflectionTable& table, const Surroundings& around) {
+  const double f = deflection_of(table, around.normal_load, inflation_pressure(around.tire));
+  return std::min(f, 0.99 * around.tire.radius);
+}
 
 double ground_pressure(const Tire& tire) { return inflation_pressure(tire) + carcass_pressure(tire); }
 
@@ -95,12 +119,22 @@ struct PressureCap {
   static double rounded(double x) { return std::pow(1 + std::pow(std::min(x, 1e50), 6), -1.0 / 6); }
 };
 
-/// Carcass and soil in series: d = S + (r a^2/2) P(S)/p_g; a is the half angle of the flat at sigma = p_g.
+/// How far a pressure of 1 Pa presses the carcass in [m/Pa]: (r a^2/2)/p_g; a is the half angle of the flat at sigma =
+/// p_g. By the maker's table A b/W, of the segment A that the chord of the flat cuts off.
+double carcass_softness(double a, const Outline& outline, const Surroundings& around) {
+  if (!around.tire.deflection) return 0.5 * a * a * outline.radius / ground_pressure(around.tire);
+  const double scale = a / spring_half_angle, f = told_deflection(*around.tire.deflection, around),
+               half = 2 * std::asin(std::sqrt(f / (2 * outline.radius))),
+               segment = outline.radius * outline.radius * (half - 0.5 * std::sin(2 * half));
+  return scale * scale * outline.width * segment / around.normal_load;
+}
+
+/// Carcass and soil in series: d = S + softness P(S).
 struct CarcassSpring {
   double n, softness, give, log_give;  // softness [m/Pa]; give [m^(1-n)]: deflection = give S^n
   CarcassSpring(double a, const Outline& outline, const Surroundings& around)
       : n(around.soil.exponent),
-        softness(0.5 * a * a * outline.radius / ground_pressure(around.tire)),
+        softness(carcass_softness(a, outline, around)),
         give(softness * pressing_modulus(outline, around)),
         log_give(std::log(give)) {}
   /// The depth at which the soil's pressure decides where the tread lies: its own; that of the power law.
@@ -319,9 +353,9 @@ class Flattening final : public Effect {
 };
 
 /// Schmid: the deflected tire's contact is that of a larger rigid circle, sqrt(R/r) = sqrt(1 + f/z) + sqrt(f/z), with
-/// the deflection f = (r a^2/2) W/(2 r b p_g) and Bekker's static sinkage z of the rigid wheel on the soil that acts.
-/// The formula says that the contact sqrt(2r (z + f)) before the axle and sqrt(2r f) behind it has the circle's length
-/// sqrt(2R z): the circle stands sqrt(2r f) behind the axle.
+/// the deflection f = (r a^2/2) W/(2 r b p_g), or the maker's, and Bekker's static sinkage z of the rigid wheel on the
+/// soil that acts. The formula says that the contact sqrt(2r (z + f)) before the axle and sqrt(2r f) behind it has the
+/// circle's length sqrt(2R z): the circle stands sqrt(2r f) behind the axle.
 class SubstituteCircle final : public Effect {
  public:
   explicit SubstituteCircle(const std::vector<double>& p) : amplitude_(p[0]) {}
@@ -340,6 +374,8 @@ class SubstituteCircle final : public Effect {
 
  private:
   double deflection(double width, const Surroundings& around) const {
+    if (around.tire.deflection)
+      return std::pow(amplitude_ / circle_half_angle, 2) * told_deflection(*around.tire.deflection, around);
     return 0.25 * amplitude_ * amplitude_ * around.normal_load / (width * ground_pressure(around.tire));
   }
   double enlargement(double radius, double width, const Surroundings& around) const {
@@ -356,7 +392,9 @@ class SubstituteCircle final : public Effect {
 
 std::vector<EffectForm> tire_flexibility_forms() {
   const std::string id = "tire_flexibility";
-  const std::vector<Presumption> of_pressure = {inflation_pressure, carcass_pressure};
+  const std::vector<Presumption> of_pressure = {inflation_pressure, carcass_pressure},
+                                 beside_table = {inflation_pressure, carcass_beside_table};
+  const std::vector<std::string> table = {deflection_key};
   return {
       {.id = id,
        .form = "flat_section",
@@ -370,17 +408,20 @@ std::vector<EffectForm> tire_flexibility_forms() {
        .form = "carcass_spring",
        .equation = "d = y + (r a^2/2) sigma(y)/p_g: carcass and soil in series, theta_2 = -theta_f",
        .source = "stated: radial springs of stiffness 2 p_g/(r a^2) between rim and tread",
-       .parameters = {{"a", "rad", 0.3, 0.0, 2.0, "half angle of the flat where the soil presses with p_g"}},
+       .parameters = {{"a", "rad", spring_half_angle, 0.0, 2.0,
+                       "half angle of the flat where the soil presses with p_g"}},
        .steady_only = "the shear displacement is followed along a rigid rim",
-       .presumes = of_pressure,
+       .presumes = beside_table,
+       .tire_values = table,
        .make = maker<Flattening<CarcassSpring>>()},
       {.id = id,
        .form = "substitute_circle",
        .equation = "sqrt(R/r) = sqrt(1 + f/z0) + sqrt(f/z0), f = (r a^2/2) W/(2 r b p_g), z0: Bekker's static sinkage",
        .source = "after Schmid 1995, J. Terramechanics 32(1):3",
-       .parameters = {{"a", "rad", 0.5, 0.0, 2.0, "half angle of the flat where W/(2 r b) = p_g"}},
+       .parameters = {{"a", "rad", circle_half_angle, 0.0, 2.0, "half angle of the flat where W/(2 r b) = p_g"}},
        .steady_only = "the shear displacement is followed along a rigid rim",
-       .presumes = of_pressure,
+       .presumes = beside_table,
+       .tire_values = table,
        .make = maker<SubstituteCircle>()},
   };
 }

@@ -25,8 +25,10 @@ double round_number(double x) {
 
 /// A number of SI as it is written in this unit.
 double read_in(double value, const std::string& unit) {
-  const std::string text = write_quantity(value, unit);
-  return read_number(text.substr(0, text.find(' '))).value_or(value);
+  const std::string text = write_quantity(value, unit), own = " " + unit;
+  const bool in_unit = unit == "-" || unit.empty() || text.ends_with(own);  // else in base units, to keep every bit
+  const auto number = read_number(text.substr(0, text.find(' ')));
+  return in_unit && number ? *number : value * compare::per_unit(unit);
 }
 
 /// A slider's limits and step, in the unit that is shown. Where the range knows no limit a slider reaches a few times
@@ -72,16 +74,17 @@ std::optional<double> value_of(const std::optional<Estimate>& estimate) {
   return estimate ? std::optional(estimate->value) : std::nullopt;
 }
 
-/// Adds a control for each number of `from`; `usual` [SI] as of slider_over.
+/// Adds a control for each number of `from`; `usual` [SI] as of slider_over; `force`: the unit in which loads are told.
 template <class T>
-void add_numbers(Json& to, const T& from, const char* group, const std::string& prefix, double usual, double radius) {
+void add_numbers(Json& to, const T& from, const char* group, const std::string& prefix, double usual, double radius,
+                 const std::string& force = "N") {
   each_member<T>([&](const char* key, auto member, const auto& limits, const char* meaning) {
     using Value = std::decay_t<decltype(from.*member)>;
     const Value& value = from.*member;
     const std::string flag = key_of(prefix, key);
     if (std::is_same_v<T, OperatingCondition> && key == std::string_view("inflation_pressure")) return;  // the tire's
     if constexpr (std::is_same_v<Value, double>) {
-      const std::string unit = shown_unit(limits.unit);
+      const std::string unit = limits.unit == "N" ? force : shown_unit(limits.unit);
       const double per_si = compare::per_unit(unit);
       to.push_back(control_json(group, flag, meaning, unit, read_in(value, unit),
                                 slider_over(limits.range, per_si, value * per_si, usual * per_si)));
@@ -244,12 +247,14 @@ bool is_soil_flag(const std::string& key) {
   return std::ranges::any_of(keys, [&](const std::string& k) { return key_of("", k.c_str()) == key; });
 }
 
-Json numbers_json(const Case& question) {
+bool is_told_in_kilonewtons(double load) { return load >= 1000.0; }
+
+Json numbers_json(const Case& question, const std::string& force) {
   constexpr double usual_of_condition = 0.1, usual_of_tire = 0.1, usual_lug = 0.02;
   Json numbers = Json::array();
   const OperatingCondition& at = question.study.conditions.front();
   const Tire& tire = question.scenario.tire;
-  add_numbers(numbers, at, "condition", "", usual_of_condition, tire.radius);
+  add_numbers(numbers, at, "condition", "", usual_of_condition, tire.radius, force);
   add_numbers(numbers, tire, "tire", "", usual_of_tire, tire.radius);
   add_numbers(numbers, tire.lugs, "tire", "lug-", usual_lug * tire.radius, tire.radius);
   if (question.scenario.soil.semi_empirical) add_soil_values(numbers, *question.scenario.soil.semi_empirical);

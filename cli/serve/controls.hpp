@@ -24,8 +24,11 @@ std::string effect_word(const EffectChoice& choice, const Soil& soil);
 /// The numbers of a question of one condition, each with group ("condition", "tire", "soil"), key (its flag), title,
 /// meaning, unit, and in that unit its value (null: the tire declares none) and the limits and step of a slider. Those
 /// of the soil have their standard deviation under "sd". Then pass, moisture, position and run, each with the "effects"
-/// that hear of it: a page shows it with them.
-nlohmann::ordered_json numbers_json(const Case& question);
+/// that hear of it: a page shows it with them. `force`: the unit of the load, N or kN.
+nlohmann::ordered_json numbers_json(const Case& question, const std::string& force);
+
+/// Whether a load [N] is so large that a page tells forces in kN.
+bool is_told_in_kilonewtons(double load);
 
 /// Flags, without their dashes, that say more of the tire, or of the soil, than its name.
 bool is_tire_flag(const std::string& key);

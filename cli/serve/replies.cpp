@@ -17,8 +17,8 @@
 #include "compare/sweep/varying.hpp"
 #include "compare/sweep/wheel_limits.hpp"
 #include "compare/telling/answer_report.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/source_text.hpp"
 
 namespace soilbin::cli {
 
@@ -158,7 +158,7 @@ Reply estimate_reply(const Setup& setup, const std::string& query) {
   document["title"] = title_of(question);
   document["errors_in_words"] = compare::errors_in_words(question);
   document["readings"] = readings_json(first);
-  document["numbers"] = numbers_json(question);
+  document["numbers"] = numbers_json(question, setup.force_unit());
   document["effects"] = effect_values_json(question);
   document["curves"] = curves_json(sides);
   document["budget"] = budget_json(sides);
@@ -185,7 +185,10 @@ Reply case_reply(const Setup& setup, const std::string& query) {
   return {200, "application/yaml", write_case(swept_over(setup.ask(flags).question, slips), setup.place().effects)};
 }
 
-Reply curves_reply(const Setup& setup, const std::string& query) {
+Reply curves_reply(const Setup& setup, std::string query) {
+  const std::string comma = "decimal-comma=true";
+  const std::size_t asked = query.find(comma);
+  if (asked != std::string::npos) query.erase(asked, comma.size());
   std::vector<compare::ModelAnswers> all;
   std::map<std::string, Scenario> scenario_of;
   for (ServedAnswer& one : answers_to(setup, query))
@@ -197,7 +200,8 @@ Reply curves_reply(const Setup& setup, const std::string& query) {
   const auto remark = [&](const ModelChoice& model, const compare::Answer& answer) {
     return compare::remark_on(scenario_of.at(model.label), model, answer);
   };
-  return {200, "text/csv; charset=utf-8", compare::study_csv(all, remark)};
+  const std::string csv = compare::study_csv(all, remark);
+  return {200, "text/csv; charset=utf-8", asked == std::string::npos ? csv : with_decimal_commas(csv)};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "bekker_wong/effect.hpp"
 #include "bekker_wong/model.hpp"
 #include "cli/progress.hpp"
+#include "cli/serve/controls.hpp"
 #include "compare/doubts/declared_tire.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/report/json_fields.hpp"
@@ -31,7 +32,9 @@ std::unique_ptr<const Model> make_curve_model(ModelKind kind) {
 }
 
 /// Whether forces are told in kN, as the load is.
-bool tells_kilonewtons(const ServedAnswer& one) { return one.asked.question.study.conditions.front().load >= 1000.0; }
+bool tells_kilonewtons(const ServedAnswer& one) {
+  return is_told_in_kilonewtons(one.asked.question.study.conditions.front().load);
+}
 
 void in_kilonewtons(compare::Sheet& sheet) {
   const std::string newtons = "[N]";
@@ -158,11 +161,8 @@ Json readings_json(const ServedAnswer& one) {
   const auto& result = one.point.front().answers.front().result;
   if (!result) return all;
   const std::size_t channels = compare::channel_views.size();
-  std::vector<compare::PrintedValue> readings = compare::printed_values(*result);
-  for (std::size_t c = 0; c < channels && tells_kilonewtons(one); ++c)
-    if (readings[c].unit == "N")
-      readings[c].value = compare::number((*result).*compare::channel_views[c].predicted, 1e-3),
-      readings[c].unit = "kN";
+  std::vector<compare::PrintedValue> readings = compare::printed_values(
+      *result, tells_kilonewtons(one) ? compare::ForcesIn::kilonewtons : compare::ForcesIn::newtons);
   if (const std::optional<double> steepest = compare::steepest_slope(one.asked.question))
     readings.insert(readings.begin() + static_cast<std::ptrdiff_t>(channels) + 1,
                     {"Steepest slope", compare::number(*steepest / degree), "deg"});

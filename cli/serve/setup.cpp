@@ -104,7 +104,7 @@ Setup::Setup(const Workplace& place, std::string case_name, std::vector<Flag> fl
       start_.emplace_back("effect", effect_word(choice, question.scenario.soil));
     if (model.effects.empty()) start_.emplace_back("effect", "none");
   }
-  ask({});
+  if (is_told_in_kilonewtons(ask({}).question.study.conditions.front().load)) force_unit_ = "kN";
 }
 
 Asked Setup::put_together(const std::vector<Flag>& query) const {
@@ -151,7 +151,7 @@ Json Setup::document() const {
           {"soil", compare::in_words(question.scenario.soil)},
           {"tires", place_.library.names(Shelf::tires)},
           {"soils", soils_json(place_.library)},
-          {"numbers", numbers_json(question)},
+          {"numbers", numbers_json(question, force_unit_)},
           {"effects", effects_json(question)}};
 }
 

@@ -40,11 +40,14 @@ class Setup {
 
   const Workplace& place() const { return place_; }
 
+  /// The unit of the page's slider of the load, by the start's load: N or kN.
+  const std::string& force_unit() const { return force_unit_; }
+
  private:
   Asked put_together(const std::vector<Flag>& query) const;
 
   const Workplace& place_;
-  std::string case_name_;
+  std::string case_name_, force_unit_ = "N";
   std::vector<Flag> start_;  ///< flags that make a single condition of the case
 };
 

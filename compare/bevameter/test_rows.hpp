@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/measured/csv.hpp"
+#include "scenario/csv.hpp"
 
 namespace soilbin::compare {
 

@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
-#include "compare/measured/csv.hpp"
 #include "compare/report/number_text.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/quantity.hpp"
 

@@ -36,14 +36,18 @@ struct DeclaredByTire {
   std::vector<Said> (*says)(const Case&);  ///< before effect and form
 };
 
-constexpr std::array<DeclaredByTire, 2> declared_by_tires = {{
-    {"tire_flexibility", "flat_section",
-     [](const Case& question) {
-       return std::ranges::all_of(question.study.conditions, [&](const OperatingCondition& at) {
-         return declared_ground_pressure(tire_at(question.scenario.tire, at)).value_or(0.0) > 0.0;
-       });
-     },
-     DoubtKind::taken_as_flexible,
+bool has_pressures(const Case& question) {
+  return std::ranges::all_of(question.study.conditions, [&](const OperatingCondition& at) {
+    return declared_ground_pressure(tire_at(question.scenario.tire, at)).value_or(0.0) > 0.0;
+  });
+}
+
+/// Of one effect the first that is there.
+constexpr std::array<DeclaredByTire, 3> declared_by_tires = {{
+    {"tire_flexibility", "carcass_spring",
+     [](const Case& question) { return question.scenario.tire.deflection && has_pressures(question); },
+     DoubtKind::taken_by_table, [](const Case&) { return std::vector<Said>(); }},
+    {"tire_flexibility", "flat_section", has_pressures, DoubtKind::taken_as_flexible,
      [](const Case& question) { return pressures_of(question.scenario.tire, question.study.conditions); }},
     {"lug_thrust", "passive_blade",
      [](const Case& question) { return is_lugged(question.scenario.tire) && question.study.models.size() == 1; },
@@ -77,6 +81,7 @@ void make_rigid(Case& question, Doubts& notes) {
   std::optional<double>& pressure = question.scenario.tire.inflation_pressure;
   if (!pressure) notes.push_back({DoubtKind::rigid_already});
   pressure.reset();
+  question.scenario.tire.deflection.reset();
 }
 
 void make_smooth(Case& question, Doubts& notes) {

@@ -19,6 +19,7 @@ struct TireLeftOut {
 };
 
 /// Adds to the question's analytic models the effects of what its tire declares, one form each:
+/// - tire_flexibility, carcass_spring, where it has a load-deflection table too, which that form reads
 /// - tire_flexibility, flat_section, where every condition has an inflation pressure, its own or the tire's: it caps
 /// the
 ///   pressure under the tread at inflation and carcass pressure, so that a wheel that presses with less rolls as the

@@ -27,16 +27,18 @@ enum class DoubtKind {
   wider_than_high, high_lugs,
   // an answer
   no_solution, standing_wheel, power_from_nothing, unusual_ground_pressure, slides_across, settles_too_deep,
-  deep_sinkage, bin_floor, short_contact, large_deflection, flattens, pull_without_slip, beyond_learned, errors_left_out,
+  deep_sinkage, bin_floor, short_contact, large_deflection, beyond_deflections, flattens, pull_without_slip,
+  beyond_learned, errors_left_out,
   // no influence
   lugs_ignored, lug_count_ignored, lug_thickness_ignored, lug_pattern_ignored, lug_angle_ignored, inflation_ignored,
-  inflation_ignored_by_grains, carcass_ignored, carcass_ignored_by_grains, speed_ignored, bin_ignored, no_yaw,
+  inflation_ignored_by_grains, carcass_ignored, carcass_ignored_by_grains, deflection_ignored,
+  deflection_ignored_by_grains, speed_ignored, bin_ignored, no_yaw,
   assumed_errors_none, assumed_errors_ignored_by_grains, condition_ignored, condition_ignored_by_grains,
   effect_without_condition, effect_without_pass, bin_depth_taken, soil_weight_ignored, rigid_already, smooth_already,
   // resistive force theory
   ignored_by_rft, rft_values_estimated, rft_without_cohesion,
   // presumptions
-  presumed, density_assumed, exact_carcass, taken_as_flexible, taken_with_lugs, known_by_size,
+  presumed, density_assumed, exact_carcass, taken_as_flexible, taken_by_table, taken_with_lugs, known_by_size,
   // grains
   unusual_grain_density, grain_density_in_g_cm3, unusual_sliding_friction, wide_grain_radii, cohesion_presses_grains,
   rolling_depends_on_step, soft_grains, coarse_grains, narrow_bed, bed_density, step_untested, step_matters,

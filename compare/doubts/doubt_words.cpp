@@ -66,6 +66,8 @@ constexpr DoubtSentence sentences[] = {
     D(short_contact, "K ({:.3g} mm) is longer than the contact ({:.3g} mm){at}: shear hardly develops"),
     D(large_deflection, "the tire deflects by {:.3g} mm{at}, {:.0f} % of its radius: tires bear about 10 %, and {:.0f} "
       "% at the most. Raise the inflation pressure or lower the load"),
+    D(beyond_deflections, "{:N} at {:.4g} kPa lie outside the tire's load-deflection table ({}){at}: the stiffness of "
+      "its edge is taken"),
     D(flattens, "the tire flattens{at} (inflation {:.4g} kPa and carcass {:.4g} kPa){:?: as a rigid wheel it pulls "
       "{:N}}{:?, with --effect tire_flexibility {:N}}{error:?, and carries no more there: {}}"),
     D(pull_without_slip, "the wheel pulls {:.2g} of its load{at}: even there the model shears the soil by up to {:.3g} "
@@ -83,6 +85,8 @@ constexpr DoubtSentence sentences[] = {
     D(inflation_ignored_by_grains, "the inflation pressure is ignored: grains meet a rigid tire"),
     D(carcass_ignored, "the carcass pressure is ignored: add {1}"),
     D(carcass_ignored_by_grains, "the carcass pressure is ignored: grains meet a rigid tire"),
+    D(deflection_ignored, "the load-deflection table is ignored: add {1}"),
+    D(deflection_ignored_by_grains, "the load-deflection table is ignored: grains meet a rigid tire"),
     D(speed_ignored, "the speed is ignored: add {1}"),
     D(bin_ignored, "the bin is ignored: add {1}, which reads its depth"),
     D(no_yaw, "'{0}' is ignored: no condition has a 'yaw'"),
@@ -107,6 +111,8 @@ constexpr DoubtSentence sentences[] = {
       "blamed on whatever looks like it; give it an sd, carcass_pressure: {{value: {1:.4g} kPa, sd: ...}}"),
     D(taken_as_flexible, "the tire is taken as flexible where the soil presses with more than its {:.4g}{:? .. {:.4g}} "
       "kPa of inflation and carcass (effect {}, form {}); --rigid for the rigid wheel"),
+    D(taken_by_table, "the tire is taken as flexible, by its load-deflection table (effect {}, form {}); --rigid for "
+      "the rigid wheel"),
     D(taken_with_lugs, "the tire is taken with its lugs (effect {}, form {}); --no-lugs for the smooth wheel"),
     D(known_by_size, "tire {} is known {}"),
     D(unusual_grain_density, "grain_density = {:.4g} kg/m^3 is outside 500 .. 8000: quartz has 2650, steel 7850"),

@@ -15,6 +15,7 @@
 #include "compare/doubts/unused_inputs.hpp"
 #include "compare/sweep/varying.hpp"
 #include "resistive_force/model.hpp"
+#include "scenario/deflection_table.hpp"
 #include "scenario/nearest_word.hpp"
 
 namespace soilbin::compare {
@@ -73,6 +74,20 @@ Doubts too_flat(const Scenario& scenario, const Answer& answer) {
   return {Doubt{DoubtKind::large_deflection, {1000 * flattened, 100 * flattened / radius, 100 * most}, answer.at}};
 }
 
+/// A load or a pressure that the tire's maker did not measure.
+Doubts beyond_deflections(const Scenario& scenario, const Answer& answer) {
+  const Tire tire = tire_at(scenario.tire, answer.at);
+  const auto reads = [](const EffectChoice& effect) {
+    return depends_on(bekker_wong::find_form(effect), deflection_key);
+  };
+  if (!tire.deflection || !tire.inflation_pressure || std::ranges::none_of(scenario.effects, reads)) return {};
+  const double load =
+      answer.at.load * std::cos(answer.at.longitudinal_incline) * std::cos(answer.at.transverse_incline);
+  if (covers(*tire.deflection, load, *tire.inflation_pressure)) return {};
+  return {Doubt{
+      DoubtKind::beyond_deflections, {load, *tire.inflation_pressure / 1000, in_words(*tire.deflection)}, answer.at}};
+}
+
 /// A tire that is asked as a rigid wheel and would flatten: what the default form of tire_flexibility makes of it.
 Doubts taken_as_rigid(const Scenario& scenario, const Answer& answer) {
   constexpr double hardly = 0.01;  // of the load
@@ -126,6 +141,7 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Doubts& a
   const double modulus = scenario.soil.semi_empirical->shear_modulus.value;
   if (modulus > length) all.push_back({DoubtKind::short_contact, {1000 * modulus, 1000 * length}, at});
   append(all, too_flat(scenario, answer));
+  append(all, beyond_deflections(scenario, answer));
   append(all, taken_as_rigid(scenario, answer));
   append(all, pull_without_slip(scenario, answer));
 }
@@ -263,9 +279,10 @@ Case question_of(const Campaign& campaign, const Scenario& asked) {
   return question;
 }
 
-/// Each row has a run and a place: so a campaign is told, whether or not its model asks for them.
+/// Each row has a run, a place and a speed: so a campaign is told, whether or not its model asks for them.
 bool only_tells_the_row(const Doubt& one) {
-  return one.kind == DoubtKind::condition_ignored && (one.says[0] == Said("run") || one.says[0] == Said("position"));
+  return one.kind == DoubtKind::speed_ignored ||
+         (one.kind == DoubtKind::condition_ignored && (one.says[0] == Said("run") || one.says[0] == Said("position")));
 }
 
 /// The campaign's model at other conditions.

@@ -23,6 +23,16 @@ bool any_condition(const Case& question, const std::function<bool(const Operatin
   return std::any_of(question.study.conditions.begin(), question.study.conditions.end(), has);
 }
 
+/// Whether the question tells a speed of a condition: one that is not the default, nor follows from a rotation.
+bool tells_speed(const Case& question) {
+  const Study& study = question.study;
+  for (std::size_t i = 0; i < study.conditions.size(); ++i)
+    if (study.conditions[i].speed != OperatingCondition{}.speed &&
+        !(i < study.rotations.size() && study.rotations[i].has_value()))
+      return !question.drive;
+  return false;
+}
+
 const std::vector<Declared>& declarable() {
   using At = const OperatingCondition&;
   const auto some = [](auto has) { return [has](const Case& question) { return any_condition(question, has); }; };
@@ -67,11 +77,22 @@ const std::vector<Declared>& declarable() {
          const bool is_typed = source != tire.sources.end() && source->second == command_line_source;
          return tire.carcass_pressure && (is_typed || !tire.inflation_pressure);
        }},
+      {deflection_key,
+       DoubtKind::deflection_ignored,
+       DoubtKind::deflection_ignored_by_grains,
+       {},
+       [](const Case& question) { return question.scenario.tire.deflection.has_value(); }},
       of_typed("lugs.count", DoubtKind::lug_count_ignored),
       of_typed("lugs.thickness", DoubtKind::lug_thickness_ignored),
       of_typed("lugs.pattern", DoubtKind::lug_pattern_ignored),
       of_typed("lugs.angle", DoubtKind::lug_angle_ignored),
-      of_typed("speed", DoubtKind::speed_ignored),
+      {"speed",
+       DoubtKind::speed_ignored,
+       {},
+       {},
+       [=](const Case& question) {
+         return (typed(question, "speed") || tells_speed(question)) && !asks(question.study, ModelKind::dem);
+       }},
       of_typed("bin", DoubtKind::bin_ignored),
       of_yaw("slip_by"),
       of_yaw("force_frame"),
@@ -125,6 +146,7 @@ std::string unknown_to_rft(const std::string& key) {
   if (key == "pass") return "the pass: it has no rut";
   if (key == "inflation_pressure") return "the inflation pressure: its wheel is rigid";
   if (key == "carcass_pressure") return "the carcass pressure: its wheel is rigid";
+  if (key == deflection_key) return "the load-deflection table: its wheel is rigid";
   if (key == "speed" || key == "moisture" || key == "position" || key == "run" || key == "bin") return "'" + key + "'";
   return "";
 }

@@ -9,8 +9,8 @@
 
 namespace soilbin::compare {
 
-/// Standard deviation of a channel's noise, sqrt(a^2 + b^2 f^2 + q^2 s^2) at prediction f in a run whose channel
-/// scattered by s in time, and what it rests on.
+/// Standard deviation of a channel's noise, sqrt(a^2 + b^2 f^2 + q^2 s^2) at prediction f in a run whose mean
+/// has the error s, or whose channel scattered by s in time (Cell::spread), and what it rests on.
 struct ChannelNoise {
   bool measured = false;  ///< the campaign holds this channel
   double floor = 0.0;     ///< a, in the channel's unit

@@ -80,7 +80,11 @@ int Observations::conditions_in_blocks() const {
 
 Observations observe(const Campaign& campaign) {
   std::array<double, channel_count> usual{};
-  for (int c = 0; c < channel_count; ++c) usual[c] = usual_scatter(campaign.runs, c).value_or(0.0);
+  std::array<ToldBeside, channel_count> told{};
+  for (int c = 0; c < channel_count; ++c) {
+    told[c] = best_told(campaign.runs, c);
+    usual[c] = usual_scatter(campaign.runs, c, told[c]).value_or(0.0);
+  }
   Observations all;
   std::vector<OperatingCondition> conditions;
   std::vector<bool> labelled;
@@ -98,7 +102,7 @@ Observations observe(const Campaign& campaign) {
     all.source_row.push_back(static_cast<int>(i));
     for (int c = 0; c < channel_count; ++c)
       if (const auto& value = run.*channel_views[c].measured)
-        all.cells.push_back({row, c, *value, run.within_run_sd[c].value_or(usual[c])});
+        all.cells.push_back({row, c, *value, (run.*told[c])[c].value_or(usual[c])});
   }
   all.block = blocks_of(conditions, labelled);
   return all;

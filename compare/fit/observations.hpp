@@ -22,8 +22,8 @@ struct Cell {
   int row = 0;      ///< of Observations::rows
   int channel = 0;  ///< Channel
   double value = 0.0;
-  /// Standard deviation in time within the run [SI]; the channel's median where this run doesn't tell and others do, 0
-  /// where none does.
+  /// Error of the mean over the run, or its standard deviation in time where no run of the campaign tells an error
+  /// [SI]; the channel's median where this run doesn't tell and others do, 0 where none does.
   double spread = 0.0;
 };
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <map>
 
-#include "compare/measured/csv.hpp"
 #include "compare/measured/run_columns.hpp"
 #include "compare/measured/time_log.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/condition_axes.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/effect_choices.hpp"
 #include "scenario/mapping_reader.hpp"
 #include "scenario/mapping_writer.hpp"

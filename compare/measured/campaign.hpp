@@ -36,6 +36,9 @@ struct Run {
   /// Standard deviation in time of each traction channel over the run that its mean was taken of [SI], in the order of
   /// traction_channels. Samples follow each other, so it is no error of the mean; it tells which runs were unsteady.
   std::array<std::optional<double>, 4> within_run_sd{};
+  /// Standard error of each channel's mean over the run [SI], by samples that follow each other (time_log.hpp). Of this
+  /// run alone: how much another bed differs it does not hold.
+  std::array<std::optional<double>, 4> mean_error{};
   std::optional<double> rotation{};  ///< of the wheel [rad/s]; a campaign that is read has turned it into at.speed
 };
 

@@ -44,15 +44,15 @@ RunColumn channel(const ChannelView& view) {
           .get = [&view](const Run& run) { return run.*view.measured; }};
 }
 
-/// A channel's scatter in time within the run.
-RunColumn scatter(std::size_t place) {
+/// What a run tells of a channel beside its mean: the scatter in time, the error of the mean.
+RunColumn beside_channel(std::size_t place, const std::string& what, std::array<std::optional<double>, 4> Run::*told) {
   const ChannelView& view = channel_views.at(place);
-  return {.quantity = std::string(view.name) + "_sd",
-          .canonical = column_of(view, "sd"),
+  return {.quantity = std::string(view.name) + "_" + what,
+          .canonical = column_of(view, what.c_str()),
           .measure = {view.si_unit, zero_or_more},
           .beside = column_of(view),
-          .set = [place](Run& run, double x) { run.within_run_sd.at(place) = x; },
-          .get = [place](const Run& run) { return run.within_run_sd.at(place); }};
+          .set = [place, told](Run& run, double x) { (run.*told).at(place) = x; },
+          .get = [place, told](const Run& run) { return (run.*told).at(place); }};
 }
 
 std::vector<RunColumn> make_columns() {
@@ -69,7 +69,10 @@ std::vector<RunColumn> make_columns() {
                  .set = [](Run& run, double x) { run.rotation = x; },
                  .get = [](const Run& run) { return run.rotation; }});
   for (const ChannelView& view : channel_views) all.push_back(channel(view));
-  for (std::size_t place = 0; place < channel_views.size(); ++place) all.push_back(scatter(place));
+  for (std::size_t place = 0; place < channel_views.size(); ++place)
+    all.push_back(beside_channel(place, "sd", &Run::within_run_sd));
+  for (std::size_t place = 0; place < channel_views.size(); ++place)
+    all.push_back(beside_channel(place, "error", &Run::mean_error));
   return all;
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "compare/measured/campaign.hpp"
-#include "compare/measured/csv.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/quantity.hpp"
 
 namespace soilbin::compare {
@@ -22,11 +22,11 @@ struct RunColumn {
   std::string quantity;   ///< as `columns:` names it: "drawbar_pull"
   std::string canonical;  ///< the header without any `columns:`: "drawbar_pull_N"
   Content content = Content::number;
-  Measure measure{};                                       ///< unit of the canonical column, range
-  bool required = false;                                   ///< the column, and a value in every row
-  bool channel = false;                                    ///< measured, not set
-  std::string beside{};                                    ///< canonical name of the channel whose scatter it tells
-  std::function<void(Run&, double)> set{};                 ///< SI; empty for labels
+  Measure measure{};                        ///< unit of the canonical column, range
+  bool required = false;                    ///< the column, and a value in every row
+  bool channel = false;                     ///< measured, not set
+  std::string beside{};                     ///< canonical name of the channel whose scatter or error it tells
+  std::function<void(Run&, double)> set{};  ///< SI; empty for labels
   std::function<std::optional<double>(const Run&)> get{};  ///< what to write; no value: an empty cell
 };
 

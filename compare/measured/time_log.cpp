@@ -8,9 +8,9 @@
 #include <set>
 
 #include "compare/measured/channels.hpp"
-#include "compare/measured/csv.hpp"
 #include "compare/measured/stretches.hpp"
 #include "compare/measured/within_run_scatter.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/mean_value.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/quantity.hpp"
@@ -511,6 +511,7 @@ Made run_of(const TimeLog& log, const Rows& rows) {
       if (about.quantity != channel_views[c].name) continue;
       made.channels[c] = mean_with_effective(values);
       made.run.within_run_sd[c] = made.channels[c]->sd;
+      made.run.mean_error[c] = made.channels[c]->mean.std_error;
       if (const auto unsteady = unsteadiness(channel_views[c], values)) made.unsteady.push_back(*unsteady);
     }
   }

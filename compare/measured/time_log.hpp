@@ -117,8 +117,8 @@ LogRuns runs_of_log(const TimeLog& log);
 /// A sentence: how means, errors and effective numbers of samples were made, with their sources.
 std::string reduction_in_words();
 
-/// The runs as the CSV of a campaign, with the standard deviation in time of each channel; numbers to six digits, under
-/// the names and in the units of `named`.
+/// The runs as the CSV of a campaign, with each channel's standard deviation in time and error of the mean; numbers to
+/// six digits, under the names and in the units of `named`.
 std::string runs_csv(const LogRuns& made, const std::map<std::string, DataColumn>& named = {});
 
 }  // namespace soilbin::compare

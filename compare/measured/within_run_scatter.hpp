@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -20,12 +21,23 @@ inline double upper_median(std::vector<double> values) {
   return *middle;
 }
 
-/// Median over the runs of a channel's standard deviation in time [SI]; nothing where none does.
-inline std::optional<double> usual_scatter(const std::vector<Run>& runs, std::size_t channel) {
+/// What runs tell of each channel beside its mean: &Run::within_run_sd or &Run::mean_error.
+using ToldBeside = std::array<std::optional<double>, 4> Run::*;
+
+/// Median over the runs of what they tell of a channel, by default its standard deviation in time [SI]; nothing where
+/// none does.
+inline std::optional<double> usual_scatter(const std::vector<Run>& runs, std::size_t channel,
+                                           ToldBeside told = &Run::within_run_sd) {
   std::vector<double> scatters;
   for (const Run& run : runs)
-    if (run.within_run_sd[channel]) scatters.push_back(*run.within_run_sd[channel]);
+    if ((run.*told)[channel]) scatters.push_back(*(run.*told)[channel]);
   return scatters.empty() ? std::nullopt : std::optional(upper_median(std::move(scatters)));
+}
+
+/// What tells how far a run's channel may be off beside other runs': errors of means where a run gives one, else
+/// standard deviations in time.
+inline ToldBeside best_told(const std::vector<Run>& runs, std::size_t channel) {
+  return usual_scatter(runs, channel, &Run::mean_error) ? &Run::mean_error : &Run::within_run_sd;
 }
 
 }  // namespace soilbin::compare

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/plot_panel.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/quantity.hpp"
 
 namespace soilbin::compare {

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
 #include "scenario/atomic_file.hpp"
+#include "scenario/csv.hpp"
 
 namespace soilbin::compare {
 namespace {

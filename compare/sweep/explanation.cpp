@@ -10,6 +10,7 @@
 #include "bekker_wong/presumption.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/result_json.hpp"
+#include "scenario/deflection_table.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/quantity.hpp"
 #include "scenario/soil_parameters.hpp"
@@ -216,6 +217,15 @@ std::vector<Step> result_steps(const Facts& f, const TractionResult& result) {
   return steps;
 }
 
+/// What the maker's table says of this load and pressure.
+std::string deflection_remark(const Tire& tire, const OperatingCondition& at) {
+  const double load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
+  if (!tire.inflation_pressure) return fmt::format("reads the load-deflection table ({})", in_words(*tire.deflection));
+  return fmt::format("by the load-deflection table ({}) {:.4g} mm on firm ground under {} at {:.4g} kPa",
+                     in_words(*tire.deflection), 1000 * deflection_of(*tire.deflection, load, *tire.inflation_pressure),
+                     newtons(load), *tire.inflation_pressure / 1000);
+}
+
 std::vector<Step> effect_steps(const Scenario& scenario, const OperatingCondition& at) {
   std::vector<Step> steps;
   for (const EffectChoice& choice : scenario.effects) {
@@ -223,6 +233,8 @@ std::vector<Step> effect_steps(const Scenario& scenario, const OperatingConditio
     Step step{choice.id + " (" + form.form + ")", form.equation, "", 0.0, "", form.source};
     for (const std::string& sentence : bekker_wong::presumptions({choice}, tire_at(scenario.tire, at)))
       step.remark += "; " + sentence.substr(0, sentence.size() - 1);
+    const Tire tire = tire_at(scenario.tire, at);
+    if (tire.deflection && depends_on(form, deflection_key)) step.remark += "; " + deflection_remark(tire, at);
     for (const EffectParameter& p : form.parameters) {
       const auto given = choice.parameters.find(p.name);
       const double value = given == choice.parameters.end() ? p.fallback : given->second;
@@ -251,8 +263,10 @@ std::string pressure_remark(const Scenario& scenario, const OperatingCondition& 
       carried > std::max(critical, most) ? "rolls as if rigid" : "flattens; add --effect tire_flexibility");
 }
 
-/// What this soil bears forward at the most, on the surface through the tips of the lugs where the model has them.
+/// What this soil bears forward at the most under the contact that acts, on the surface through the tips of the lugs
+/// where the model has them: the bound that the lugs' forms keep.
 Step largest_thrust(const Facts& f) {
+  using Patch = bekker_wong::ContactPatch;
   double lugs = 0.0;
   for (const EffectChoice& effect : f.scenario.effects) {
     const EffectForm& form = bekker_wong::find_form(effect);
@@ -261,20 +275,29 @@ Step largest_thrust(const Facts& f) {
     for (const bekker_wong::Presumed& one : bekker_wong::presumed(form, f.scenario.tire))
       if (one.key == "lugs.height") lugs = one.value;
   }
-  double length = 0.0, faces = 0.0;
-  for (const double arc : f.wheel.patch.of(&bekker_wong::ContactPatch::arc)) length += arc;
+  lugs = std::min(lugs, std::max(f.wheel.sinkage, 0.0));  // those in the soil
+  const Patch& patch = f.wheel.patch;
+  double length = 0.0, pressing = 0.0, faces = 0.0;
+  for (int i = 0; i < patch.count; ++i) {
+    length += patch.arc[i];
+    pressing +=
+        patch.arc[i] * (patch.sigma[i] * patch.normal_cosine[i] + std::max(0.0, patch.tau_x[i] * patch.normal_sine[i]));
+  }
+  pressing *= f.b;
   for (const auto& added : f.wheel.forces.added.rows())
     if (added.name == "lug_thrust") faces += added.forward;
   const double area = f.b * length * (1 + lugs / f.r), thrust = f.wheel.forces.thrust + faces;
-  const double most = f.soil.cohesion * area + f.normal_load * std::tan(f.soil.friction_angle);
+  const double most = f.soil.cohesion * area + pressing * std::tan(f.soil.friction_angle);
   std::string remark = fmt::format("the model's thrust is {:.4g} N", thrust);
   if (faces != 0.0) remark += fmt::format(", {:.4g} N of it by the faces of the lugs", faces);
-  constexpr double of_a_flat_contact = 0.01;  // by so much a curved one may press with more than W_n
-  if (thrust > most * (1 + of_a_flat_contact)) remark += ": more, as an effect raises the soil's strength";
+  constexpr double rounding = 1e-9;
+  if (thrust > most * (1 + rounding)) remark += ": more, as an effect raises the soil's strength";
   return {"largest thrust of this soil",
-          lugs > 0.0 ? "c A + W_n tan phi, A = b L (r + h)/r over the contact's length L"
-                     : "c A + W_n tan phi, A = b L over the contact's length L",
-          fmt::format("{:.4g} kPa * {:.4g} m^2 + {:.4g} N tan {:.4g} deg", f.soil.cohesion / 1000, area, f.normal_load,
+          lugs > 0.0
+              ? "c A + N tan phi, A = b L (r + h)/r over the contact's length L, h of a lug in the soil, N on the "
+                "contact"
+              : "c A + N tan phi, A = b L over the contact's length L, N on the contact",
+          fmt::format("{:.4g} kPa * {:.4g} m^2 + {:.4g} N tan {:.4g} deg", f.soil.cohesion / 1000, area, pressing,
                       f.soil.friction_angle / degree),
           most,
           "N",

@@ -1,5 +1,5 @@
-// Models as people call them, on pages and plots, their effects by their titles (bekker_wong/effects/titles.hpp).
-// Files, flags, JSON, CSV and tables on a terminal keep the ids.
+// Models as people call them, their effects by their titles (bekker_wong/effects/titles.hpp). Files, flags, JSON and
+// CSV keep the ids.
 #pragma once
 
 #include <string>

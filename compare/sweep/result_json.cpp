@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "compare/measured/channels.hpp"
-#include "compare/measured/csv.hpp"
 #include "compare/report/number_text.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/unit.hpp"
 

@@ -47,6 +47,15 @@ void add_numbers(const Part& part, const std::string& prefix, const Tire& tire, 
 std::vector<SourcedValue> sourced_values(const Scenario& scenario) {
   std::vector<SourcedValue> all;
   add_numbers(scenario.tire, "", scenario.tire, all);
+  if (const std::optional<DeflectionTable>& table = scenario.tire.deflection)
+    all.push_back(
+        {.of = "tire",
+         .key = deflection_key,
+         .name = "load-deflection table",
+         .unit = "rows",
+         .per_si = 1.0,
+         .value = {static_cast<double>(table->rows.size()), 0.0},
+         .source = table->source.empty() ? source_of(deflection_key, {}, scenario.tire.source) : table->source});
   if (is_lugged(scenario.tire)) add_numbers(scenario.tire.lugs, "lugs.", scenario.tire, all);
   if (!scenario.soil.semi_empirical) return all;
   const SemiEmpiricalSoil& soil = *scenario.soil.semi_empirical;

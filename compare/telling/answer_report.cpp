@@ -147,11 +147,16 @@ std::string title_of_question(const Case& question, bool with_slip) {
   return title;
 }
 
-std::vector<PrintedValue> printed_values(const TractionResult& r) {
+std::vector<PrintedValue> printed_values(const TractionResult& r, ForcesIn told) {
+  const double per_newton = told == ForcesIn::newtons ? 1.0 : 1e-3;
+  const std::string unit = told == ForcesIn::newtons ? "N" : "kN";
   std::vector<PrintedValue> all;
-  for (const ChannelView& channel : channel_views)
-    all.push_back(
-        {capital(std::string(channel.title)), number(r.*channel.predicted, channel.per_si), std::string(channel.unit)});
+  for (const ChannelView& channel : channel_views) {
+    const bool force = channel.unit == "N";
+    all.push_back({capital(std::string(channel.title)),
+                   number(r.*channel.predicted, force ? per_newton : channel.per_si),
+                   force ? unit : std::string(channel.unit)});
+  }
   const std::string none = why_no_efficiency(r);
   all.push_back(
       {"Tractive efficiency", none.empty() ? efficiency_in_percent(r) : "none: " + none, none.empty() ? "%" : ""});
@@ -162,12 +167,13 @@ std::vector<PrintedValue> printed_values(const TractionResult& r) {
   std::string sum;
   for (const Contribution& part : r.budget) {
     const std::string sign = sum.empty() ? (part.force < 0 ? "-" : "") : (part.force < 0 ? " - " : " + ");
-    sum += fmt::format("{}{} N ({})", sign, number(std::abs(part.force)), spaced(part.name));
+    sum += fmt::format("{}{} {} ({})", sign, number(std::abs(part.force) * per_newton), unit, spaced(part.name));
   }
   if (const BudgetRest& rest = r.budget_rest; std::abs(rest.force) > 1e-9 * r.at.load)
-    sum +=
-        fmt::format("; {} N unexplained{}", number(rest.force),
-                    std::isfinite(rest.bound) ? fmt::format(" (sampling error: up to {} N)", number(rest.bound)) : "");
+    sum += fmt::format("; {} {} unexplained{}", number(rest.force * per_newton), unit,
+                       std::isfinite(rest.bound)
+                           ? fmt::format(" (sampling error: up to {} {})", number(rest.bound * per_newton), unit)
+                           : "");
   all.push_back({"Drawbar pull is", sum, ""});
   if (!r.without_error_of.empty())
     all.push_back(
@@ -181,10 +187,10 @@ std::vector<ReportPart> answer_parts(const ModelAnswers& model, const Answer& an
   std::vector<ReportPart> parts;
   if (!answer.result) {
     parts.push_back({Sentences(std::vector<BackedSentence>{
-        {model.choice.label, fmt::format("{}: no solution: {}", in_words(answer.at), answer.error)}})});
+        {model_in_words(model.choice.label), fmt::format("{}: no solution: {}", in_words(answer.at), answer.error)}})});
     return parts;
   }
-  parts.push_back({Sentences(std::vector<BackedSentence>{{model.choice.label, in_words(answer.at)}})});
+  parts.push_back({Sentences(std::vector<BackedSentence>{{model_in_words(model.choice.label), in_words(answer.at)}})});
   NamedValues values;
   for (const PrintedValue& one : printed_values(*answer.result))
     values.all.emplace_back(one.name, one.value + (one.unit.empty() ? "" : " " + one.unit));
@@ -205,7 +211,7 @@ std::vector<ReportPart> study_parts(const std::vector<ModelAnswers>& study) {
       if (side || !channel_views[c].sideways)
         header.push_back(heading(std::string(channel_views[c].title), std::string(channel_views[c].unit)));
     header.push_back("efficiency [%]");
-    Table table{model.choice.label, header};
+    Table table{model_in_words(model.choice.label), header};
     std::vector<std::string> unsolved;
     for (const std::size_t i : curve_by_curve(curves)) {
       const Answer& answer = model.answers[i];
@@ -252,6 +258,9 @@ Report report_on(const Case& question, const std::vector<ModelAnswers>& study) {
   if (several && curves_run_over(question.study.conditions) != nullptr)
     report.add("Curves", Figure(report.sheet, "Bands: one standard error."));
   if (!several) report.add("Stresses under the wheel", Figure([&] { return stresses_of(study); }, ""));
+  std::vector<std::string> labels;
+  for (const ModelAnswers& model : study) labels.push_back(model.choice.label);
+  report.made_of = names_and_ids(labels);
   return report;
 }
 

@@ -18,8 +18,11 @@ struct PrintedValue {
   std::string name, value, unit;
 };
 
+/// The unit in which forces are told.
+enum class ForcesIn { newtons, kilonewtons };
+
 /// What an answer says: four results with standard errors, efficiency, angles, budget.
-std::vector<PrintedValue> printed_values(const TractionResult& result);
+std::vector<PrintedValue> printed_values(const TractionResult& result, ForcesIn unit = ForcesIn::newtons);
 
 /// "tire radius 110 mm, width 100 mm on dry-sand": what was asked, as an answer's heading says it.
 std::string asked_in_words(const Case& question);

@@ -5,7 +5,6 @@
 
 #include "compare/discrepancy/causes.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/result_json.hpp"
@@ -13,6 +12,7 @@
 #include "compare/telling/comparison_report.hpp"
 #include "compare/telling/comparison_words.hpp"
 #include "compare/telling/loop_report.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/mapping_writer.hpp"
 
 namespace soilbin::compare {

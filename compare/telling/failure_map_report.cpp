@@ -91,7 +91,8 @@ std::string rows_sentence(const FailureMapResult& result) {
   return text + ".";
 }
 
-std::string knowledge_sentence(const FailureMapResult& result) {
+/// How the rows lie about what the map says of each, and about their mean.
+std::string scatter_sentence(const FailureMapResult& result) {
   const LeaveOneOut& held_out = result.rows.held_out;
   const auto inside = static_cast<double>((held_out.standardised.array().abs() < 1.96).count());
   double mean = 0, squares = 0, noise = 0, n = 0;
@@ -101,11 +102,15 @@ std::string knowledge_sentence(const FailureMapResult& result) {
   for (const FailureRow& row : result.rows.rows)
     if (row.difference) squares += std::pow(row.difference->value - mean, 2) / n;
   return fmt::format(
-      "Cross-validated error of the map: {:.1f} % of the load (each row predicted from all others, root mean square); "
       "{:.0f} % of the rows lie within 1.96 of their stated errors. The rows scatter by {:.1f} % about their mean, a "
       "run by {:.1f} % about its own.",
-      100 * held_out.rms(), 100 * inside / static_cast<double>(held_out.standardised.size()), 100 * std::sqrt(squares),
+      100 * inside / static_cast<double>(held_out.standardised.size()), 100 * std::sqrt(squares),
       100 * std::sqrt(noise / n));
+}
+
+std::string error_sentence(const FailureMapResult& result) {
+  return fmt::format("Cross-validated error of the map: {:.1f} % of the load (RMS, each row left out in turn).",
+                     100 * result.rows.held_out.rms());
 }
 
 std::string coordinates_sentence(const FailureMapResult& result) {
@@ -301,14 +306,16 @@ std::vector<std::string> map_summary(const FailureMapResult& result) {
     text.push_back(fmt::format("{}: within {:.3g} % of the load {}.", result.question.name,
                                100 * result.question.tolerance, box_in_words(result.question, clause)));
   if (result.clauses.empty()) text.push_back("No part of the range is within the tolerance with 95 % confidence.");
-  text.push_back(knowledge_sentence(result));
+  text.push_back(error_sentence(result) + " " + scatter_sentence(result));
   for (const std::string& more : {coordinates_sentence(result), checks_sentence(result)})
     if (!more.empty()) text.push_back(more);
   return text;
 }
 
 /// Where the quick estimate may be trusted; where not and to which side it errs; how sure that is.
-std::vector<std::pair<std::string, std::string>> trust_in_words(const FailureMapResult& result) {
+/// `grains`: how far off the grains are themselves, where that is not told before.
+std::vector<std::pair<std::string, std::string>> trust_in_words(const FailureMapResult& result,
+                                                                const std::string& grains) {
   const double tolerance = 100 * result.question.tolerance;
   std::vector<std::pair<std::string, std::string>> parts;
   std::string boxes;
@@ -320,14 +327,12 @@ std::vector<std::pair<std::string, std::string>> trust_in_words(const FailureMap
           ? fmt::format("Nowhere: no part of the range is within {:.3g} % of the load with 95 % confidence.", tolerance)
           : fmt::format("The analytic pull is within {:.3g} % of the load of the grains' with 95 % confidence {}",
                         tolerance, boxes));
-  if (const std::string grains = grains_sentence(result); !grains.empty()) parts.back().second += " " + grains;
+  if (!grains.empty()) parts.back().second += " " + grains;
   const double beyond = 100 * share_beyond(result);
   parts.emplace_back("Do not trust it",
                      fmt::format("The error exceeds {:.3g} % of the load in {:.0f} % of the range. {}", tolerance,
                                  beyond, capital(rows_sentence(result))));
-  std::string sure =
-      fmt::format("Cross-validated error of the map: {:.1f} % of the load (RMS, each row left out in turn).",
-                  100 * result.rows.held_out.rms());
+  std::string sure = error_sentence(result);
   if (const std::string fresh = checks_sentence(result); !fresh.empty()) sure += " " + fresh;
   parts.emplace_back("How sure", sure);
   return parts;
@@ -349,7 +354,7 @@ std::string in_short(const FailureMapResult& result) {
 
 /// Scatter of the rows, whether ratios without units would serve better.
 std::vector<std::string> details(const FailureMapResult& result) {
-  std::vector<std::string> text = {knowledge_sentence(result)};
+  std::vector<std::string> text = {scatter_sentence(result)};
   if (std::string groups = coordinates_in_words(result); !groups.empty()) text.push_back(std::move(groups));
   return text;
 }
@@ -441,8 +446,9 @@ Report report_on(const FailureMapResult& result, const FailureMapAbout& about) {
   Report report{"Where may I trust the quick estimate?",
                 fmt::format("{}: the analytic wheel against grains, {} on {}", about.name,
                             result.map.scenario.tire.name, in_words(result.map.scenario.soil))};
+  const std::string grains = grains_sentence(result);
   std::vector<std::string> first = {in_short(result)};
-  if (std::string grains = grains_sentence(result); !grains.empty()) first.push_back(std::move(grains));
+  if (!grains.empty()) first.push_back(grains);
   report.add(Sentences(first), Told::on_pages);
   report.parts.push_back(
       {.content = Html{sliding_map_html(
@@ -455,14 +461,12 @@ Report report_on(const FailureMapResult& result, const FailureMapAbout& about) {
        .section = "The map",
        .anchor = "map",
        .heading = ReportPart::Heading::place});
-  report.parts.push_back({.content = Sentences(trust_in_words(result)),
+  report.parts.push_back({.content = Sentences(trust_in_words(result, "")),
+                          .told = Told::on_pages,
                           .section = "The answer in full",
                           .anchor = "answer",
                           .heading = ReportPart::Heading::place});
-  report.add(
-      KeyFigures{{{std::to_string(result.rows.rows.size()), "conditions run"},
-                  {fmt::format("{:.1f} %", 100 * result.rows.held_out.rms()), "cross-validated error, of the load"},
-                  {fmt::format("{:.0f} %", 100 * share_beyond(result)), "of the range beyond the tolerance"}}});
+  report.add(Sentences(trust_in_words(result, grains)), Told::in_text);
   report.add(Items{details(result)});
   report.add(WarningsHere());
   report.add(Fold{"The map at its corners, side by side", [&result] { return corners(result); }});

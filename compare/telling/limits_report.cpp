@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "compare/doubts/doubts.hpp"
-#include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/model_names.hpp"
@@ -14,6 +13,7 @@
 #include "compare/sweep/wheel_limits.hpp"
 #include "compare/telling/answer_report.hpp"
 #include "compare/telling/reports.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
@@ -56,7 +56,7 @@ std::string within_in_words(const WheelLimits& answer) {
 }
 
 Table slopes_table(const WheelLimits& answer) {
-  Table table{fmt::format("{}, load {:.6g} N", answer.model.label, answer.at.load),
+  Table table{fmt::format("{}, load {:.6g} N", model_in_words(answer.model.label), answer.at.load),
               {"slope [deg]", "slip to climb it [%]", "largest pull [N]", "slip of the largest pull [%]"}};
   for (const SlopeRow& row : answer.slopes)
     table.add({number(row.slope / degree), slip_in_words(row), number({row.best.drawbar_pull, row.pull_error}),

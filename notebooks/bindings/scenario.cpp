@@ -59,6 +59,11 @@ void bind_tire_and_soil(py::module_& module) {
   bind_words<LugPattern>(module, "LugPattern", "How the lugs run across the tread.");
   py::class_<Lugs> lugs(module, "Lugs", "Lugs of a tire or grousers of a rover wheel.");
   described(lugs);
+  py::class_<TireDeflection> deflection(module, "TireDeflection",
+                                        "One row of a tire maker's load-deflection table, on firm flat ground.");
+  described(deflection);
+  py::class_<DeflectionTable> table(module, "DeflectionTable", "A tire maker's load-deflection table.");
+  described(table);
   py::class_<Tire> tire(module, "Tire",
                         "A wheel as the soil meets it. Radius and width are those of the tread base, without lugs.");
   described(tire);

@@ -248,6 +248,53 @@ TEST(TireFlexibility, LoadCarriedRisesSmoothlyWithDepth) {
   }
 }
 
+/// A tire of stiffness K_0 + K_1 p by its maker's table.
+Tire tire_with_table(double pressure) {
+  Tire t = soft_tire(pressure);
+  t.deflection.emplace();
+  for (const double p : {50e3, 150e3})
+    for (const double load : {200.0, 2000.0}) t.deflection->rows.push_back({load, p, load / (20e3 + 0.2 * p)});
+  return t;
+}
+
+// On ground that gives way by nothing and shears at nothing the tire deflects by what its maker measured.
+TEST(TireFlexibility, SpringMeetsTheMakersTable) {
+  SoilValues ground;
+  ground.k_phi = 1e13;
+  for (const double pressure : {50e3, 80e3, 150e3})
+    for (const double load : {200.0, 700.0, 2000.0}) {
+      const RollingWheel wheel(tire_with_table(pressure), ground,
+                               make_effects({{"tire_flexibility", "carcass_spring", {}}}));
+      const RolledWheel w = wheel.roll(driven(load));
+      const double f = load / (20e3 + 0.2 * pressure);
+      EXPECT_NEAR(w.patch.deflection, f, 1e-6 * f) << load << " " << pressure;
+      EXPECT_LT(w.sinkage, 1e-6 * f);
+    }
+}
+
+// Schmid's circle of the tire's own deflection.
+TEST(TireFlexibility, CircleTakesTheMakersDeflection) {
+  const double load = 700, pressure = 80e3;
+  const RollingWheel wheel(tire_with_table(pressure), sand(),
+                           make_effects({{"tire_flexibility", "substitute_circle", {}}}));
+  const double share = load / (20e3 + 0.2 * pressure) / bekker_static_sinkage(sand(), radius, width, load);
+  const double root = std::sqrt(1 + share) + std::sqrt(share);
+  EXPECT_NEAR(wheel.outline(driven(load)).radius, root * root * radius, 1e-12);
+}
+
+// The cap keeps to its pressure, and a table leaves nothing to presume of the carcass.
+TEST(TireFlexibility, CapKeepsToThePressure) {
+  const EffectChoice flat{"tire_flexibility", "flat_section", {}}, spring{"tire_flexibility", "carcass_spring", {}};
+  EXPECT_EQ(rolled_on(flat, driven(800), tire_with_table(80e3)).sinkage,
+            rolled_on(flat, driven(800), soft_tire(80e3)).sinkage);
+  EXPECT_NE(rolled_on(spring, driven(800), tire_with_table(80e3)).sinkage,
+            rolled_on(spring, driven(800), soft_tire(80e3)).sinkage);
+  EXPECT_TRUE(presumptions({spring}, tire_with_table(80e3)).empty());
+  EXPECT_FALSE(presumptions({flat}, tire_with_table(80e3)).empty());
+  EXPECT_FALSE(depends_on(find_form(flat), "deflection"));
+  EXPECT_TRUE(depends_on(find_form(spring), "deflection"));
+}
+
 // An inextensible belt on a lossless carcass: dj = ds - v/(r w) dx, torque = r b Int tau ds. So M - r (1 - s) F is what
 // the slipping of the soil and its compaction take: never negative.
 TEST(TireFlexibility, PowerInCoversPowerOut) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <regex>
 #include <set>
@@ -142,6 +143,75 @@ TEST(SlowIgnoredInput, EveryFlagOfAQuestionChangesTheAnswerOrIsDoubted) {
   }
 }
 
+/// A command that answers in JSON, and for each of its flags that is no output a value that matters.
+struct Asking {
+  std::string name, words;
+  std::map<std::string, std::string> values;
+};
+
+/// Its answer without the words that it was asked by, and its warnings.
+std::string answer_text(nlohmann::json document) {
+  for (const char* echo : {"command", "words"}) document.erase(echo);
+  return document.dump();
+}
+
+TEST(SlowIgnoredInput, EveryFlagOfOtherCommandsChangesTheAnswerOrIsRefused) {
+  const Scratch scratch;
+  std::string plates = "test,box,plate_diameter_mm,sinkage_mm,pressure_kPa\n";
+  for (int test = 1; test <= 6; ++test)
+    for (int z = 2; z <= 16; z += 2) {
+      const double diameter = test % 2 == 0 ? 150 : 100, share = test > 4 ? 1.3 : 1.0;
+      plates += std::to_string(test) + (test > 4 ? ",b," : ",a,") + std::to_string(diameter) + "," + std::to_string(z) +
+                "," + std::to_string(share * (20 / diameter + 1) * std::pow(z, 1.0 + 0.01 * z)) + "\n";
+    }
+  const std::string readings = "'" + scratch.write("plates.csv", plates).string() + "'";
+  const std::string model = "'" +
+                            scratch
+                                .write("model.yaml",
+                                       "format: soilbin-case/1\nname: m\ntire: rover-wheel\nsoil: "
+                                       "sandy-loam\nstudy:\n  models: [bekker_wong]\n  conditions: "
+                                       "{load: 60 N, slip: 20 %}\n")
+                                .string() +
+                            "'";
+  const std::string record = "'" SOILBIN_SOURCE_DIR "/cases/studies/recorded/paper-straight.json'";
+  const Asking all[] = {
+      {"plates", readings, {{"--only", "box=a"}, {"--pressure", "5kPa..15kPa"}, {"--plate", "100mm"}}},
+      {"predict", "made-lesson", {{"--model", model}}},
+      {"design",
+       "made-lesson --runs=8 --effect=slip_sinkage",
+       {{"--runs", "9"},
+        {"--limit", "slip=0%..20%"},
+        {"--effect", "bulldozing"},
+        {"--noise", "drawbar_pull=5N"},
+        {"--seed", "2"}}},
+      {"reproduce", "", {{"--recorded", record}}},
+      {"loop",
+       "made-lesson --folds=2",
+       {{"--next", ""}, {"--limit", "slip=0%..20%"}, {"--folds", "3"}, {"--seed", "2"}, {"--details", ""}}}};
+  const std::set<std::string> outputs = {"--help",   "--plot",     "--csv",           "--json",
+                                         "--report", "--markdown", "--decimal-comma", "--save-model"};
+  for (const Asking& asking : all) {
+    const Outcome plain = soilbin(asking.name + " " + asking.words + " --json");
+    ASSERT_EQ(plain.status, 0) << asking.name << plain.err;
+    for (const ShownFlag& flag : flags_of(asking.name)) {
+      if (outputs.contains(flag.name)) continue;
+      ASSERT_TRUE(asking.values.contains(flag.name)) << "a new flag: give it a value, " << asking.name << flag.name;
+      const std::string& value = asking.values.at(flag.name);
+      std::string words = asking.words;  // a flag that counts once takes the place of its own
+      if (const std::size_t own = words.find(flag.name + "="); own != std::string::npos && flag.name != "--effect")
+        words.erase(own, words.find(' ', own) - own);
+      const std::string asked = asking.name + " " + words + " " + flag.name + (value.empty() ? "" : "=" + value);
+      const Outcome with = soilbin(asked + " --json");
+      if (with.status == 2) {
+        EXPECT_THAT(with.err, HasSubstr(flag.name)) << asked;
+        continue;
+      }
+      ASSERT_EQ(with.status, 0) << asked << with.err;
+      EXPECT_NE(answer_text(with.json()), answer_text(plain.json())) << asked << " changes nothing, without a word";
+    }
+  }
+}
+
 TEST(IgnoredInput, IsToldWithWhatReadsIt) {
   const std::string ask =
       "estimate --radius=110mm --width=100mm --soil=dry-sand --load=80N --slip=20% --lug-height=8mm "
@@ -158,6 +228,25 @@ TEST(IgnoredInput, IsToldWithWhatReadsIt) {
   EXPECT_THAT(soilbin(ask + "--force-frame=wheel").err,
               HasSubstr("'force_frame' is ignored: no condition has a 'yaw'"));
   EXPECT_EQ(soilbin(ask).err, "");
+}
+
+// A speed in a case's file too, but not one that follows from a rotation.
+TEST(IgnoredInput, ASpeedOfACaseIsToldWhereNoModelReadsIt) {
+  const Scratch scratch;
+  const auto warned = [&](const std::string& models, const std::string& speed) {
+    const fs::path file = scratch.write("case.yaml",
+                                        "format: soilbin-case/1\nname: c\ntire: rover-wheel\nsoil: "
+                                        "dry-sand\nstudy:\n  models: [" +
+                                            models + "]\n  conditions: {load: 60 N, slip: 20 %, " + speed + "}\n");
+    const Outcome r = soilbin("run '" + file.string() + "'");
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.err.find("the speed is ignored: add --effect rate_dependence") != std::string::npos;
+  };
+  EXPECT_TRUE(warned("bekker_wong", "speed: 2 m/s"));
+  EXPECT_TRUE(warned("bekker_wong", "speed: [0.1 m/s, 1 m/s]"));
+  EXPECT_FALSE(warned("{model: bekker_wong, effects: [rate_dependence]}", "speed: 2 m/s"));
+  EXPECT_FALSE(warned("bekker_wong", "speed: 0.1 m/s")) << "the default";
+  EXPECT_FALSE(warned("bekker_wong", "rotation: 10 rpm"));
 }
 
 /// Sample values of the flags of grains: readable ones, so that only their being given is at fault.
@@ -247,6 +336,8 @@ TEST(IgnoredInput, OfOtherCommands) {
   const std::pair<const char*, const char*> wrong[] = {
       {"compare rover-slip --effect bulldozing --no-loop --title T", "--title is the title of a page"},
       {"compare rover-slip --effect bulldozing --no-loop --seed 3", "--seed is the loop's"},
+      {"loop made-lesson --details", "--details"},
+      {"loop made-lesson --next --json", "exclude each other"},
       {"sweep status somewhere --shards 3", "--shards has no effect on a status"},
       {"sweep paper-straight --on local --json", "--json is for the status"},
       {"sweep paper-straight --on local --shards 2 --at-least 60s", "exclude each other"},

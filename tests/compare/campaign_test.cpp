@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "bekker_wong/effect_vocabulary.hpp"
-#include "compare/measured/csv.hpp"
 #include "compare/measured/run_columns.hpp"
 #include "scenario/case.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/library.hpp"
 #include "scenario/soil_parameters.hpp"
 #include "scenario/unit.hpp"

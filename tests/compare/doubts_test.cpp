@@ -132,6 +132,11 @@ TEST(Doubts, WhatNoModelHearsOfIsTold) {
   question.study.models = {ModelChoice{}};
   question.study.conditions = {condition(80, 0.2)};
   EXPECT_THAT(keys_of_unused(question), IsEmpty());
+  question.study.conditions[0].speed = 2;
+  EXPECT_THAT(keys_of_unused(question), ElementsAre("speed"));
+  question.study.rotations = {10.0};
+  EXPECT_THAT(keys_of_unused(question), IsEmpty()) << "it follows from the rotation";
+  question.study.rotations.clear(), question.study.conditions[0].speed = OperatingCondition{}.speed;
   question.scenario.tire.lugs.height = 0.01;
   question.study.conditions[0].pass = 2;
   question.study.conditions[0].moisture = 0.05;

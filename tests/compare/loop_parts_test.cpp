@@ -117,6 +117,35 @@ TEST(NoiseFloor, HasAnySize) {
   }
 }
 
+// Of runs that scatter alike in time, those of many independent samples count for more: their means' errors tell.
+TEST(NoiseFloor, FollowsTheErrorsOfMeans) {
+  Campaign campaign = sand_campaign();
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  constexpr int count = 60;
+  constexpr double little = 1.5, much = 5.0, predicted = 200.0;
+  VectorXd residual(count);
+  for (int i = 0; i < count; ++i) {
+    auto& run = campaign.runs.emplace_back();
+    run.at.load = 80, run.at.slip = 0.01 * i, run.torque = predicted;
+    run.within_run_sd[torque] = 10.0;
+    if (i > 0) run.mean_error[torque] = i % 2 == 0 ? little : much;
+    residual[i] = normal(random) * (i % 2 == 0 ? little : much);
+  }
+  const Observations runs = observe(campaign);
+  EXPECT_EQ(runs.cells[0].spread, much) << "the median, of a run that tells none";
+  EXPECT_EQ(runs.cells[1].spread, much);
+  EXPECT_EQ(runs.cells[2].spread, little);
+  const ChannelNoise noise = estimate_noise(runs, {.residual = residual,
+                                                   .prediction = VectorXd::Constant(count, predicted),
+                                                   .soil_columns = Eigen::MatrixXd::Zero(count, 0)})
+                                 .floor.channels[torque];
+  EXPECT_NEAR(std::log(noise.sd(predicted, much) / much), 0.0, 0.35);
+  EXPECT_GT(noise.sd(predicted, much), 2 * noise.sd(predicted, little));
+  for (auto& run : campaign.runs) run.mean_error = {};
+  EXPECT_EQ(observe(campaign).cells[1].spread, 10.0) << "without errors the scatter in time";
+}
+
 // A value 5 sd off can't be among twelve, if its own size is in the sd: at the most it is 11/sqrt(12) = 3.2. Held
 // against the others it is as far off as it is.
 TEST(NoiseFloor, AMistypedValueIsHeldAgainstTheOthers) {

@@ -379,6 +379,48 @@ class WrongArguments(unittest.TestCase):
                 self.assertIn("object at 0x", text, "Python's own words for it")
 
 
+class ArgumentsInWords(unittest.TestCase):
+    """None, a number and a list where something else is meant: pybind11 answers with C++ signatures."""
+
+    def test_every_function_says_which_argument_is_wrong(self):
+        own = [(module, name, getattr(module, name)) for module in (soilbin, bekker_wong, compare, dem)
+               for name in module.__all__ if callable(getattr(module, name)) and not isinstance(getattr(module, name), type)]
+        asked = 0
+        for module, name, function in own:
+            for wrong in (None, 1.5, [None]):
+                with self.subTest(function=f"{module.__name__}.{name}", wrong=wrong):
+                    with self.assertRaises((TypeError, soilbin.InputError)) as raised:
+                        function(wrong)
+                    said = str(raised.exception)
+                    for internal in ("incompatible function arguments", "Invoked with", "has no attribute", "subscriptable",
+                                     "iterable"):
+                        self.assertNotIn(internal, said)
+                    asked += 1
+        self.assertGreater(asked, 80)
+
+    def test_the_words(self):
+        for wrong, words in ((lambda: soilbin.find_case(None), "find_case(): name: expected a text, not None"),
+                             (lambda: soilbin.find_case(), "find_case(): missing argument 'name': a text"),
+                             (lambda: soilbin.find_case("a", "b"), "find_case() takes name; 2 arguments were given"),
+                             (lambda: soilbin.find_case(nam="a"), "find_case() takes name, not 'nam'"),
+                             (lambda: bekker_wong.bekker_static_sinkage(ROVER, "heavy"),
+                              "bekker_static_sinkage(): load: expected a number, not 'heavy'"),
+                             (lambda: bekker_wong.fit_plates([1.5], None),
+                              "fit_plates(): curves: expected a list of PlateCurve, not [1.5]"),
+                             (lambda: compare.predict(1.5), "predict(): campaign: expected a Campaign or a text, not 1.5"),
+                             (lambda: bekker_wong.drive_frame([]), "drive_frame(): record: expected a DriveRecord, not []")):
+            with self.assertRaises(TypeError) as raised:
+                wrong()
+            self.assertEqual(str(raised.exception), words)
+
+    def test_errors_within_a_function_stay_their_own(self):
+        with self.assertRaisesRegex(soilbin.InputError, "no study 'rover-slop'|rover-slip"):
+            soilbin.find_case("rover-slop")
+        frame = compare.predict("cmu-smooth", progress=None)
+        with self.assertRaises(KeyError):
+            compare.error_frame(frame.drop(columns=[c for c in frame.columns if c.endswith("_residual")]))
+
+
 class Processes(unittest.TestCase):
     """Each in a Python of its own, with a clock that ends it."""
 

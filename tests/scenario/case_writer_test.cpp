@@ -58,6 +58,10 @@ Tire any_tire() {
       *between(0, 0.1), std::nullopt, std::nullopt,
       *rc::gen::element(LugPattern::straight, LugPattern::chevron, LugPattern::slanted, LugPattern::staggered)};
   if (*rc::gen::arbitrary<bool>()) tire.lugs.angle = *between(0, 1.2);
+  if (*rc::gen::arbitrary<bool>()) {
+    const double load = *between(1, 1e5), pressure = *between(0, 1e6), deflection = tire.radius * *between(0.01, 0.4);
+    tire.deflection = DeflectionTable{*text(), {{load, pressure, deflection}, {2 * load, pressure, 2 * deflection}}};
+  }
   if (*rc::gen::arbitrary<bool>()) tire.lugs.count = *rc::gen::inRange(1, 100);
   if (*rc::gen::arbitrary<bool>()) tire.inflation_pressure = *between(0, 1e6);
   if (*rc::gen::arbitrary<bool>()) tire.carcass_pressure = any_estimate(0, 1e5);

@@ -70,7 +70,7 @@ class ThePage(unittest.TestCase):
         self.assertEqual([a for a in self.browser.addresses if not a.startswith(self.server.address)], [])
 
     def test_2_each_number_moves_the_curves(self):
-        for key, value in (("load", 6000), ("longitudinal-incline", 5), ("transverse-incline", 10), ("yaw", 20)):
+        for key, value in (("load", 6), ("longitudinal-incline", 5), ("transverse-incline", 10), ("yaw", 20)):
             before, readings = self.pull(), self.js("document.getElementById('now').textContent")
             self.move(key, value)
             self.assertNotEqual(self.pull(), before, key)
@@ -102,6 +102,23 @@ class ThePage(unittest.TestCase):
         self.js(f"{box}.click()")
         self.assertTrue(self.browser.until("document.getElementById('command').textContent.includes('--effect=none')"))
         self.assertEqual(self.pull(), before)
+
+    def test_4_what_the_tire_declares_is_on_and_goes_off(self):
+        box = "[...document.querySelectorAll('.effect label')].find(l => l.textContent === 'lug thrust').firstChild"
+        self.assertFalse(self.js(f"{box}.checked"), "the case says none")
+        self.js("soilbin.live.go('effect=slip_sinkage')")
+        self.assertTrue(self.browser.until(f"!soilbin.live.asking && {box}.checked"))
+        self.assertIn("As the tire declares", self.js(f"{box}.closest('.effect').querySelector('small').textContent"))
+        self.assertEqual(self.js(f"{box}.closest('.effect').querySelector('select').value"), "passive_blade")
+        lugged = self.pull()
+        self.js(f"{box}.click()")
+        self.assertTrue(self.browser.until("document.getElementById('command').textContent.includes('--no-lugs')"))
+        self.assertTrue(self.browser.until(f"!soilbin.live.asking && !{box}.checked"))
+        self.assertNotEqual(self.pull(), lugged)
+        self.js(f"{box}.click()")
+        self.assertTrue(self.browser.until(f"!soilbin.live.asking && {box}.checked"))
+        self.assertEqual(self.pull(), lugged)
+        self.reset()
 
     def test_4_an_effects_parameter_moves_the_curves(self):
         control = "soilbin.live.start.effects.find(e => e.id === 'slip_sinkage').controls.get('a')"
@@ -161,7 +178,7 @@ class ThePage(unittest.TestCase):
         self.assertEqual(self.js(f"{self.listed('Soil')}.value"), "")
 
     def test_5b_a_tire_of_ones_own(self):
-        for key, value in (("radius", 350), ("width", 200), ("load", 3000)):
+        for key, value in (("radius", 350), ("width", 200), ("load", 3)):
             before, drawn = self.pull(), self.wheel()
             self.move(key, value)
             self.assertNotEqual(self.pull(), before, key)
@@ -254,18 +271,21 @@ class ThePage(unittest.TestCase):
         self.js("document.getElementById('copy').click()")
         self.assertTrue(self.browser.until("window.copied.startsWith('soilbin estimate')"))
         self.assertEqual(self.js("window.copied"), self.command())
-        for link, begins in (("save-case", "format: soilbin-case/1"), ("save-csv", "model,load_N")):
+        for link, begins in (("save-case", "format: soilbin-case/1"), ("save-csv", "model,load_N"),
+                             ("save-csv-comma", "model;load_N")):
             text = self.js(f"fetch(document.getElementById('{link}').href).then(r => r.text())")
             self.assertIn(begins, text[:400])
 
     def test_6b_an_impossible_load_offers_one_that_is_possible(self):
         before = self.pull()
-        self.move("load", 2000000, "box")
+        self.move("load", 2000, "box")
         self.assertTrue(self.browser.until("document.getElementById('carried') !== null"))
         self.assertEqual(self.pull(), before, "the last curves stay")
-        self.assertRegex(self.js("document.getElementById('carried').textContent"), "^Set the load to [0-9.]+ k?N$")
+        offered = self.js("document.getElementById('carried').textContent")
+        self.assertRegex(offered, "^Set the load to [0-9.]+ kN$")
         self.js("document.getElementById('carried').click()")
         self.assertTrue(self.browser.until("!soilbin.live.asking && !soilbin.live.refused"))
+        self.assertEqual(self.js("soilbin.live.numbers.get('load').box.value") + " kN", offered.split("to ")[1])
         self.browser.errors.clear()
         self.reset()
 
@@ -281,7 +301,7 @@ class ThePage(unittest.TestCase):
         self.browser.errors.clear()  # the browser itself notes each status 400
 
     def test_6c_an_emptied_box_says_what_holds(self):
-        self.move("load", 2000000, "box")
+        self.move("load", 2000, "box")
         self.assertTrue(self.browser.until("document.getElementById('say').textContent.includes('no solution')"))
         self.js("(e => { e.value = ''; e.dispatchEvent(new Event('input')); })(soilbin.live.numbers.get('load').box)")
         said = self.js("document.getElementById('say').textContent")
@@ -292,7 +312,7 @@ class ThePage(unittest.TestCase):
 
     def test_7_kept_curves_stay_beside_the_new_ones(self):
         self.js("document.getElementById('keep').click()")
-        self.move("load", 2000)
+        self.move("load", 2)
         self.assertEqual(self.js("document.querySelectorAll('#curves .line').length"), 10)
         self.js("document.getElementById('keep').click()")
         self.assertEqual(self.js("document.querySelectorAll('#curves .line').length"), 5)

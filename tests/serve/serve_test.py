@@ -82,6 +82,10 @@ class TheServer(unittest.TestCase):
             self.assertEqual(served["curves"]["plots"][0]["title"], f"Drawbar pull [{unit}]")
             self.assertEqual(served["budget"]["plots"][0]["title"], f"Parts of the drawbar pull [{unit}]")
             self.assertEqual(served["readings"][0]["unit"], unit)
+            parts = next(r["value"] for r in served["readings"] if r["name"] == "Drawbar pull is")
+            self.assertIn(f" {unit} (shear thrust)", parts)
+            slider = next(n for n in served["numbers"] if n["key"] == "load")
+            self.assertEqual((slider["unit"], slider["value"]), ("kN", served["rows"][0]["load"] / 1000), "as it began")
             pull = served["rows"][0]["drawbar_pull"]
             self.assertAlmostEqual(newtons * served["curves"]["plots"][0]["series"][1]["y"][0], pull, delta=1e-4 * abs(pull))
 

@@ -12,6 +12,10 @@ soilbin.part = id => document.getElementById(id);
 soilbin.quantity = (value, unit) => unit.startsWith('1') ? `${value} ${unit}` : value + unit;
 soilbin.slipRanges = [['0%..100%', '0 to 100 %'], ['0%..40%', '0 to 40 %'], ['-100%..100%', '\u2212100 (braked) to 100 %']];
 
+// Effects that a tire declares: the flag that leaves them out, and the number that tells them.
+soilbin.leftOutBy = {lug_thrust: {flag: 'no-lugs', number: 'lug-height'},
+                     tire_flexibility: {flag: 'rigid', number: 'inflation-pressure'}};
+
 // Figures of charts, and the sheet of the answer that each shows.
 soilbin.chartFigures = ['budget', 'curves', 'stresses'];
 
@@ -21,6 +25,7 @@ soilbin.Live = class {
     this.charts = {budget: [], curves: [], stresses: []};
     this.numbers = new Map();
     this.lists = [];
+    this.taken = new Map();  // effects that nobody named and the tire declares: id, 'id:form'
     this.state = new URLSearchParams(location.hash.slice(1));
     this.addControls();
     for (const [place, name, what] of [['ground', 'wheel', 'stresses'], ...soilbin.chartFigures.map(p => [p, p, p])])
@@ -120,15 +125,17 @@ soilbin.Live = class {
     const parameters = make('div', {className: 'parameters'});
     for (const {form} of effect.forms) forms.add(new Option(form, form));
     forms.setAttribute('aria-label', `Variant of ${effect.id}`);
-    box.addEventListener('change', () => this.switchEffect(effect, box.checked ? effect.on || effect.id : null));
+    box.addEventListener('change', () => this.tickEffect(effect, box.checked));
     forms.addEventListener('change', () => this.switchEffect(effect, `${effect.id}:${forms.value}`));
-    effect.show = word => {
+    // Where no word names it, the tire as it declares itself may have it.
+    effect.show = named => {
+      const taken = !named && this.taken.get(effect.id), word = named || taken;
       const name = word && word.split(',')[0].split(':')[1] || effect.forms[0].form;
       const form = effect.forms.find(f => f.form === name) || {parameters: []};
       box.checked = Boolean(word);
       forms.value = name;
       forms.hidden = !word || effect.forms.length < 2;
-      note.textContent = word && form.equation || '';
+      note.textContent = [taken ? 'As the tire declares.' : '', word && form.equation || ''].filter(Boolean).join(' ');
       this.showParameters(effect, parameters, word ? form : {parameters: []});
     };
     const name = effect.id.replaceAll('_', ' ') + (effect.of === 'measurement' ? ' (of the measurement)' : '');
@@ -164,10 +171,22 @@ soilbin.Live = class {
     for (const effect of this.start.effects) effect.show(this.wordOf(effect));
     for (const {key, effects} of this.start.numbers)
       if (effects) this.numbers.get(key).element.hidden = !effects.some(id => this.wordOf({id}));
-    const on = this.effectWords().length;
+    const on = this.effectWords().length + this.taken.size;
     this.effects.firstChild.textContent = on ? `Effects (${on} on)` : 'Effects';
   }
   showLists() { for (const [select, key, start] of this.lists) select.value = this.state.get(key) || start; }
+
+  // What a tire declares comes back where it is only not named: a flag leaves it out.
+  tickEffect(effect, on) {
+    const {flag, number} = soilbin.leftOutBy[effect.id] || {};
+    const declared = flag && Number(this.numbers.get(number).box.value) > 0;
+    if (flag && on && this.state.has(flag)) {
+      this.state.delete(flag);
+      return this.ask();
+    }
+    if (declared && !on) this.state.set(flag, 'true');
+    this.switchEffect(effect, on ? effect.on || effect.id : null);
+  }
 
   switchEffect(effect, word) {
     const words = this.effectWords().filter(w => w.split(/[:,]/)[0] !== effect.id);
@@ -233,6 +252,7 @@ soilbin.Live = class {
     soilbin.part('errors').textContent = answer.errors_in_words;
     soilbin.part('command').textContent = answer.command + (answer.beside ? `\n${answer.beside.command}` : '');
     for (const [id, target] of [['save-case', 'case.yaml'], ['save-csv', 'curves.csv']]) soilbin.part(id).href = `${target}?${this.state}`;
+    soilbin.part('save-csv-comma').href = `curves.csv?decimal-comma=true&${this.state}`;
     if (!keeps) this.showReadings(answer.readings, answer.beside);
     for (const {key, value, sd} of answer.numbers) {
       const control = this.numbers.get(key);
@@ -240,6 +260,8 @@ soilbin.Live = class {
       if (!this.state.has(key)) Object.assign(control.number, {value, sd});
       this.showNumber(control, value, sd);
     }
+    this.taken = new Map(answer.effects.filter(({id}) => !this.wordOf({id})).map(({id, form}) => [id, `${id}:${form}`]));
+    this.showEffects();
     for (const {id, parameters} of answer.effects) {
       const {controls} = this.start.effects.find(effect => effect.id === id);
       for (const {key, value} of parameters) if (controls.has(key)) this.showNumber(controls.get(key), value);
@@ -251,11 +273,11 @@ soilbin.Live = class {
 
   // A load that the soil carries, in place of one that it does not: a little below the largest.
   offerLoad(newton) {
+    const {box, unit} = this.numbers.get('load');
     const load = Number((0.98 * newton).toPrecision(3));
     const button = soilbin.make('button', {type: 'button', id: 'carried', textContent: `Set the load to ${soilbin.formatForce(load)}`});
     button.addEventListener('click', () => {
-      const {box} = this.numbers.get('load');
-      box.value = load;
+      box.value = unit === 'kN' ? load / 1000 : load;
       box.dispatchEvent(new Event('input'));
     });
     soilbin.part('say').append(button);

@@ -18,6 +18,7 @@ except ModuleNotFoundError as error:
                               f"({error})") from error
 del numpy, pandas
 
+from soilbin import arguments  # noqa: F401  first: it words what the extension refuses
 from soilbin import bekker_wong, compare, dem
 from soilbin._soilbin import (
     Bin,

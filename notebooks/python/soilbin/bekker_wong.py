@@ -31,6 +31,7 @@ from soilbin._soilbin import (
     presumed,
     rolling_resistance,
 )
+from soilbin.arguments import worded
 from soilbin.progress import Progress, told_to
 from soilbin.questions import checked, one_condition, tell
 
@@ -139,6 +140,7 @@ def drive_wheel(scenario: Scenario, drive: Optional[Drive], samples: int = 400,
     return _soilbin.drive_wheel(scenario, drive, samples, told_to(progress))
 
 
+@worded
 def drive_frame(record: DriveRecord) -> pd.DataFrame:
     """A drive's samples, a row a time [s]; SI and radians, works in J since the start."""
     return pd.DataFrame(record.samples)

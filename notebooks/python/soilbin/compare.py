@@ -29,6 +29,7 @@ from soilbin._soilbin import (
     read_record,
     write_campaign,
 )
+from soilbin.arguments import worded
 from soilbin.progress import Progress, told_to
 from soilbin.questions import CHANNELS, condition_columns, result_columns, without_empty
 
@@ -39,6 +40,7 @@ __all__ = [
 ]
 
 
+@worded
 def runs_frame(campaign: Union[Campaign, str]) -> pd.DataFrame:
     """A campaign's runs, a row each: conditions, setpoint, what was measured (NaN where it wasn't). SI and radians."""
     known = find_campaign(campaign) if isinstance(campaign, str) else campaign
@@ -52,6 +54,7 @@ def runs_frame(campaign: Union[Campaign, str]) -> pd.DataFrame:
     return without_empty(pd.DataFrame(rows))
 
 
+@worded
 def predict(campaign: Union[Campaign, str], scenario: Optional[Scenario] = None,
             progress: Progress = "shown") -> pd.DataFrame:
     """A campaign as the analytic model predicts it, a row a run, nothing fitted.
@@ -75,6 +78,7 @@ def predict(campaign: Union[Campaign, str], scenario: Optional[Scenario] = None,
     return without_empty(pd.DataFrame(rows))
 
 
+@worded
 def error_frame(prediction: pd.DataFrame) -> pd.DataFrame:
     """Of what predict gave, a row a measured channel: runs, rmse, bias (predicted less measured), range. SI."""
     rows = {}
@@ -87,6 +91,7 @@ def error_frame(prediction: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows).T
 
 
+@worded
 def run_loop(campaign: Union[Campaign, str], *, folds: int = 5, seed: int = 1, validate: bool = True, threads: int = 1,
              progress: Progress = "shown") -> LoopAnswer:
     """What the model lacks: residual, cause, effect added, error before and after (docs/guide/loop.md).
@@ -99,6 +104,7 @@ def run_loop(campaign: Union[Campaign, str], *, folds: int = 5, seed: int = 1, v
     return _soilbin.run_loop(known, folds, seed, validate, threads, told_to(progress))
 
 
+@worded
 def record_frame(record: Union[Record, str, Path]) -> pd.DataFrame:
     """A record's runs, a row each: packing, seconds, steady, drift, condition, result, error. SI and radians."""
     known = record if isinstance(record, Record) else read_record(Path(record))
@@ -110,6 +116,7 @@ def record_frame(record: Union[Record, str, Path]) -> pd.DataFrame:
     return without_empty(pd.DataFrame(rows))
 
 
+@worded
 def tell_campaign(records: Union[Record, str, Path, Sequence[Union[Record, str, Path]]], *, hide: Sequence[str] = (),
                   effects: Sequence[Union[EffectChoice, str]] = (), soil: Optional[Soil] = None, name: str = "told",
                   only_steady: bool = False, seed: int = 1) -> Campaign:
@@ -126,6 +133,7 @@ def tell_campaign(records: Union[Record, str, Path, Sequence[Union[Record, str, 
     return _soilbin.tell_campaign(known, list(hide), list(effects), soil, name, only_steady, seed)
 
 
+@worded
 def calibrate(soil: Union[Soil, str], contact: str = "sand", *,
               targets: Optional[Mapping[str, Union[Estimate, float]]] = None,
               vary: Mapping[str, tuple[float, float]] = {}, keep: Sequence[str] = (), design: str = "L9",
@@ -153,6 +161,7 @@ def calibrate(soil: Union[Soil, str], contact: str = "sand", *,
                               packings=packings, seed=seed, store=store, threads=threads, progress=told_to(progress))
 
 
+@worded
 def calibration_frame(calibration: Calibration) -> pd.DataFrame:
     """A calibration's experiments, a row each: stage, seed, factors, targets and their _std_error, error, seconds. SI."""
     rows = []
@@ -166,6 +175,7 @@ def calibration_frame(calibration: Calibration) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+@worded
 def variance_frame(calibration: Calibration, target: str) -> pd.DataFrame:
     """The orthogonal design's analyses of one target, a row a factor: range R of the level means [SI], analysis of
     variance with f and p_value. Raises KeyError for an unknown target and where a run of the design failed."""
@@ -173,6 +183,7 @@ def variance_frame(calibration: Calibration, target: str) -> pd.DataFrame:
     return pd.DataFrame([{name: getattr(row, name) for name in columns} for row in calibration.variance[target]])
 
 
+@worded
 def compare_case(case: Union[Case, str], effects: Sequence[Union[EffectChoice, str]] = (),
                  record: Union[Record, Sequence[RecordedRun], None] = None,
                  measured: Union[Campaign, str, None] = None) -> Comparison:
@@ -187,6 +198,7 @@ def compare_case(case: Union[Case, str], effects: Sequence[Union[EffectChoice, s
     return _soilbin.compare_case(question, list(effects), runs, known)
 
 
+@worded
 def differences_frame(comparison: Comparison) -> pd.DataFrame:
     """Every difference of a comparison, a row each: side, reference, channel, condition, values, finding. SI."""
     at = comparison.case.study.conditions

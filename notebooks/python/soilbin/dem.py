@@ -32,6 +32,7 @@ from soilbin._soilbin import (
     WheelRun,
     find_case,
 )
+from soilbin.arguments import worded
 from soilbin.progress import Progress, told_to
 
 __all__ = [
@@ -143,6 +144,7 @@ def record_runs(case: Union[Case, str], file: Union[str, Path], bin: Optional[So
     return (bin or SoilBin()).record(question, Path(file), packings, told_to(progress), half_step)
 
 
+@worded
 def samples_frame(run: WheelRun) -> pd.DataFrame:
     """A run's samples, a row a sampling time [s]; arrays of shape (samples, 3) as columns NAME_x, NAME_y, NAME_z. SI."""
     columns = {}

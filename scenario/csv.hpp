@@ -14,7 +14,7 @@
 
 #include "scenario/source_text.hpp"
 
-namespace soilbin::compare {
+namespace soilbin {
 
 struct CsvCell {
   std::string text;        ///< without quotes and the blanks around it; a number with a decimal point
@@ -59,4 +59,4 @@ double number_in(const CsvCell& cell, const std::string& column, const std::stri
 /// A text as a cell: quoted where it must be; behind a single quote where a spreadsheet would take it for a formula.
 std::string csv_cell(const std::string& text);
 
-}  // namespace soilbin::compare
+}  // namespace soilbin

@@ -1,4 +1,4 @@
-#include "compare/measured/csv.hpp"
+#include "scenario/csv.hpp"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 
 #include "scenario/quantity.hpp"
 
-namespace soilbin::compare {
+namespace soilbin {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
@@ -233,4 +233,4 @@ std::string with_decimal_commas(const std::string& csv) {
   return text;
 }
 
-}  // namespace soilbin::compare
+}  // namespace soilbin
