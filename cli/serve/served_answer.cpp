@@ -8,7 +8,6 @@
 #include "bekker_wong/model.hpp"
 #include "cli/progress.hpp"
 #include "cli/serve/controls.hpp"
-#include "compare/doubts/declared_tire.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
@@ -72,7 +71,7 @@ Case swept_over(Case question, const std::pair<double, double>& slips) {
 ServedAnswer answer_to(Asked asked, const std::pair<double, double>& slips) {
   ServedAnswer one{std::move(asked), {}, {}, {}};
   Case& question = one.asked.question;
-  one.notes = one.asked.base_model ? compare::without_effects(question, {}) : compare::as_declared(question, {});
+  one.notes = one.asked.tire.apply(question, one.asked.base_model);
   one.swept = swept_over(one.asked.question, slips);
   const compare::Progress until_asked = [](std::size_t, std::size_t) {
     if (interrupt_asked()) throw Interrupted();

@@ -120,6 +120,8 @@ Asked Setup::put_together(const std::vector<Flag>& query) const {
   CLI::App app("", asked.words.front());
   app.set_help_flag("");
   Question question(app);
+  TireFlags tire;
+  tire.add_to(app);
   if (!query.empty()) question.allow_conditions(most_asked_at_once);  // a server is not kept busy by one address
   if (const std::string problem = unknown_flag(app, asked.words); !problem.empty()) throw InputError(problem);
   try {
@@ -129,6 +131,7 @@ Asked Setup::put_together(const std::vector<Flag>& query) const {
   }
   asked.question = question.ask(place_);
   asked.base_model = question.switches_effects_off();
+  asked.tire = tire;
   return asked;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/question.hpp"
 #include "cli/workplace.hpp"
 
 namespace soilbin::cli {
@@ -20,6 +21,7 @@ struct Asked {
   Case question;
   std::vector<std::string> words;
   bool base_model = false;  ///< every effect was switched off by name
+  TireFlags tire;           ///< what of the tire is left out
 };
 
 class Setup {
