@@ -104,8 +104,9 @@ int compare_models(CompareOptions asked, const CLI::App& command, const Session&
   std::vector<compare::RecordedRun> runs;
   if (asks_grains(question.study, asked)) {
     if (asked.soil_bin.recorded.empty()) tell_grain_doubts(asked.soil_bin, question);
-    compare::GrainSideRuns of =
-        compare::run_grain_side(question, grains_of(asked.soil_bin), session.place.effects, shown_progress());
+    compare::StudyGrains grains = grains_of(asked.soil_bin);
+    if (asked.soil_bin.coarser_twin) grains.list = asked.soil_bin.runs(question);
+    compare::GrainSideRuns of = compare::run_grain_side(question, grains, session.place.effects, shown_progress());
     about.facts.insert(about.facts.end(), of.grains.facts.begin(), of.grains.facts.end());
     sides.push_back(std::move(of.grains.side)), runs = std::move(of.runs);
   }
@@ -146,6 +147,7 @@ void add_compare(CLI::App& app, Session& session) {
   add_value(*command, "--seed", asked->seed, "N", "seed of the loop's simulations and folds");
   asked->conditions.add_to(*command);
   asked->soil_bin.add_to(*command);
+  asked->soil_bin.add_coarser_twin_to(*command);
   command->footer(
       "A row counts as a difference beyond two standard errors of both sides (more where they rest on few re-runs) "
       "and\n"

@@ -46,9 +46,9 @@ void refuse_other_runs(const std::string& out, const compare::Record& whole) {
   } catch (const InputError&) {
     throw InputError({out}, "is there already, is no record, and stays as it is", "", hint);
   }
-  for (const bool half : {false, true})
-    for (const compare::RecordedRun& run : before.list(half))
-      if (const compare::RunSpec spec{run.answer.at, run.packing, half}; compare::find_run(whole, spec) == nullptr)
+  for (const compare::RunKind kind : compare::run_kinds)
+    for (const compare::RecordedRun& run : before.list(kind))
+      if (const compare::RunSpec spec{run.answer.at, run.packing, kind}; compare::find_run(whole, spec) == nullptr)
         throw InputError(
             {out},
             fmt::format("holds a run that none of the others does ({}), and stays as it is", compare::in_words(spec)),
@@ -125,6 +125,7 @@ void add_record(CLI::App& app, Session& session) {
   add_value(*command, "--packing", asked->expected.packing, "SEED", "missing: the first packing, 1");
   asked->expected.add_packings_to(*command);
   asked->expected.add_half_step_to(*command);
+  asked->expected.add_coarser_twin_to(*command);
   command->footer(
       "merge: the same runs give the same bytes, in any order of the shards; a run that two hold with different "
       "answers\n"

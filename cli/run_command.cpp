@@ -60,17 +60,12 @@ void save(Outputs& outputs, const RunOptions& options, const Case& question, con
 void check_flags_of_converge(const RunOptions& options) {
   const SoilBinFlags& bin = options.soil_bin;
   const std::pair<const char*, bool> given[] = {
-      {"--shard", !bin.shard.empty()},
-      {"--known", !bin.known.empty()},
-      {"--recorded", !bin.recorded.empty()},
-      {"--packings", bin.packings != 1},
-      {"--half-step", !bin.half_step.empty()},
-      {"--replay", !bin.replay.empty()},
-      {"--paraview", !bin.paraview.empty()},
-      {"--plot", !options.plot.empty()},
-      {"--csv", !options.csv.file.empty()},
-      {"--output", !options.output.empty()},
-      {"--json", options.json && options.dry_run},
+      {"--shard", !bin.shard.empty()},         {"--known", !bin.known.empty()},
+      {"--recorded", !bin.recorded.empty()},   {"--packings", bin.packings != 1},
+      {"--half-step", !bin.half_step.empty()}, {"--coarser-twin", bin.coarser_twin},
+      {"--replay", !bin.replay.empty()},       {"--paraview", !bin.paraview.empty()},
+      {"--plot", !options.plot.empty()},       {"--csv", !options.csv.file.empty()},
+      {"--output", !options.output.empty()},   {"--json", options.json && options.dry_run},
   };
   for (const auto& [flag, is_given] : given)
     if (is_given)
@@ -212,7 +207,8 @@ int answer(const RunOptions& options, const Case& question, const Case& whole,
     compare::Watch watch;
     grains.keeping = keeping_of(bin);
     if (asks_grains) grains = grains_of(bin);
-    if (asks_grains && !bin.record.empty()) grains.list = bin.runs(question), watch = shown_runs(grains.settings);
+    if (asks_grains && (!bin.record.empty() || bin.coarser_twin))
+      grains.list = bin.runs(question), watch = shown_runs(grains.settings);
     return compare::answer_study(question, whole, grains, session.place.effects, watch, shown_progress());
   });
   answered.step = step;
@@ -276,6 +272,7 @@ void add_run(CLI::App& app, Session& session) {
   options->tire.add_to(*command);
   options->soil_bin.add_to(*command);
   options->soil_bin.add_half_step_to(*command);
+  options->soil_bin.add_coarser_twin_to(*command);
   options->soil_bin.add_engine_to(*command);
   command
       ->add_flag("--dry-run", options->dry_run,

@@ -108,6 +108,10 @@ constexpr SettingFlag until_error_flag{
 
 constexpr const char* wheel_mesh_flag = "--wheel-mesh";
 
+void add_patch_flag(CLI::App& command, bool& patch, const char* meaning) {
+  command.add_flag("--patch", patch, meaning)->group(grains_heading);
+}
+
 void add(CLI::App& command, const SettingFlag& one, std::map<std::string, std::string>& texts) {
   dem::DemSettings defaults;
   const std::string meaning = fmt::format(fmt::runtime(one.meaning), one.of(defaults));
@@ -194,6 +198,7 @@ void SoilBinFlags::add_measures_to(CLI::App& command) {
 void SoilBinFlags::add_bed_to(CLI::App& command) {
   for (const SettingFlag& one : measure_flags)
     if (one.of_bed) add(command, one, texts);
+  add_patch_flag(command, patch, "the bed of a moving patch, which repeats itself every --bed-length");
   add_seed_to(command);
 }
 
@@ -222,11 +227,9 @@ void SoilBinFlags::add_seed_to(CLI::App& command) {
 void SoilBinFlags::add_starting_to(CLI::App& command) { add(command, starting_flag, texts); }
 
 void SoilBinFlags::add_patch_to(CLI::App& command) {
-  command
-      .add_flag("--patch", patch,
-                "a moving patch: only the soil from --behind to --ahead of the axle is simulated and goes along with "
-                "the wheel, on a bed that repeats itself every --bed-length without an end")
-      ->group(grains_heading);
+  add_patch_flag(command, patch,
+                 "a moving patch: only the soil from --behind to --ahead of the axle is simulated and goes along with "
+                 "the wheel, on a bed that repeats itself every --bed-length without an end");
   add(command, until_error_flag, texts);
 }
 
@@ -242,9 +245,19 @@ std::optional<bool> SoilBinFlags::tests_step() const {
 
 std::vector<compare::RunSpec> SoilBinFlags::runs(const Case& question) const {
   const dem::DemSettings settings = settings_of(*this);
-  std::vector<compare::RunSpec> list = compare::specs(question, settings, packings, tests_step());
-  compare::check_runs(question, settings);
+  const compare::Twins twins = coarser_twin ? compare::Twins::yes : compare::Twins::no;
+  std::vector<compare::RunSpec> list = compare::specs(question, settings, packings, tests_step(), twins);
+  compare::check_runs(question, settings, twins);
   return shard.empty() ? list : compare::shard_of(list, compare::parse_shard(shard));
+}
+
+void SoilBinFlags::add_coarser_twin_to(CLI::App& command) {
+  command
+      .add_flag("--coarser-twin", coarser_twin,
+                fmt::format("make each run also with grains {} times as large, for about a quarter more time: each "
+                            "answer then carries its own error of resolution",
+                            compare::coarser_by))
+      ->group(grains_heading);
 }
 
 void SoilBinFlags::add_half_step_to(CLI::App& command) {

@@ -49,6 +49,7 @@ struct SoilBinFlags {
   std::vector<std::string> known;  ///< records whose runs are not made again; flag of those who add it
   std::string shard;               ///< "K/N": the part to be made; flag of those who add it
   bool patch = false;              ///< flag of those who add it
+  bool coarser_twin = false;       ///< flag of those who add it
   std::string half_step;           ///< yes, no or, without a word, by the number of runs; flag of those who add it
 
   std::string text(const std::string& flag) const;  ///< "" where it wasn't given
@@ -65,6 +66,7 @@ struct SoilBinFlags {
   void add_rig_to(CLI::App& command);
   /// --packings alone.
   void add_packings_to(CLI::App& command);
+  void add_coarser_twin_to(CLI::App& command);
   /// The value of --half-step; nothing where it was not given.
   std::optional<bool> tests_step() const;
   /// The runs that a question is answered by, or those of the shard alone. Throws as compare::specs and check_runs.

@@ -153,6 +153,7 @@ void add_sweep(CLI::App& app, Session& session) {
   asked->soil_bin.add_packings_to(*command);
   asked->soil_bin.add_known_to(*command);
   asked->soil_bin.add_half_step_to(*command);
+  asked->soil_bin.add_coarser_twin_to(*command);
   command->footer(
       "Writes a script that settles the beds, makes the runs in shards and merges their records; whoever starts it "
       "again\n"

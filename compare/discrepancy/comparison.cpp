@@ -214,7 +214,9 @@ Doubts doubts(const Case& question, const std::vector<ModelChoice>& choices, con
   Doubts of_models;
   for (const Side& side : sides)
     if (side.kind != SideKind::measured) append(of_models, side.doubts);
-  return doubts(asked, study, of_models);
+  Doubts all = doubts(asked, study, of_models);
+  for (const Side& side : sides) tell_twins(all, side.points, question.study.conditions);
+  return all;
 }
 
 }  // namespace soilbin::compare

@@ -107,37 +107,71 @@ SidePoint combine(const std::vector<const RecordedRun*>& runs, const PackingScat
   add_scatter(solved, all, point);
   if (solved.size() < runs.size())
     point.doubts.push_back({DoubtKind::runs_without_result, {runs.size() - solved.size(), runs.size()}});
-  double most = 0.0;
+  double most = 0.0, void_ratios = 0.0;
   for (const RecordedRun* run : solved) {
+    void_ratios += run->bed.void_ratio;
     if (!run->steady) ++point.unsteady;
     point.drift = std::max(point.drift, run->drift);
     if (std::isfinite(run->drift)) most = std::max(most, run->drift);
   }
+  point.void_ratio = void_ratios > 0 ? void_ratios / static_cast<double>(solved.size()) : not_a_number;
   if (point.unsteady > 0) point.doubts.push_back({DoubtKind::unsteady_runs, {point.unsteady, solved.size(), most}});
   if (solved.size() == 1 && !is_known(all)) point.doubts.push_back({DoubtKind::one_bed_sample});
   doubt_budget(point);
   return point;
 }
 
+PackingScatters scatters_of(const std::vector<RecordedRun>& runs) {
+  PackingScatters all;
+  for (std::size_t c = 0; c < all.size(); ++c) all[c] = packing_scatter(runs, channel_views[c].predicted);
+  return all;
+}
+
+std::vector<const RecordedRun*> at_condition(const std::vector<RecordedRun>& runs, const OperatingCondition& at) {
+  std::vector<const RecordedRun*> members;
+  for (const RecordedRun& run : runs)
+    if (alike(run.answer.at, at)) members.push_back(&run);
+  return members;
+}
+
 }  // namespace
 
 Side side_of(const std::string& label, const std::vector<RecordedRun>& runs,
-             const std::vector<OperatingCondition>& conditions) {
+             const std::vector<OperatingCondition>& conditions, const std::vector<RecordedRun>& coarser) {
   Side side{label, SideKind::grains, {}};
-  PackingScatters scatters;
-  for (std::size_t c = 0; c < scatters.size(); ++c) scatters[c] = packing_scatter(runs, channel_views[c].predicted);
+  const PackingScatters scatters = scatters_of(runs), of_twins = scatters_of(coarser);
   side.scatter_known = is_known(scatters);
   for (const OperatingCondition& at : conditions) {
-    std::vector<const RecordedRun*> members;
-    for (const RecordedRun& run : runs)
-      if (alike(run.answer.at, at)) members.push_back(&run);
-    side.points.push_back(combine(members, scatters));
+    SidePoint& point = side.points.emplace_back(combine(at_condition(runs, at), scatters));
+    const std::vector<const RecordedRun*> twins = at_condition(coarser, at);
+    if (twins.empty() || !point.result) continue;
+    if (const SidePoint twin = combine(twins, of_twins); twin.result)
+      point.by_twin = error_by_twin(*point.result, *twin.result, coarser_by);
   }
   return side;
 }
 
+ResolutionError resolution_error(const Scenario& scenario, const OperatingCondition& at, const SidePoint& point) {
+  if (point.by_twin) return *point.by_twin;
+  return resolution_error(scenario, at, point.result->sinkage.value, SinkageOf::grains, point.void_ratio);
+}
+
+void tell_twins(Doubts& doubts, const std::vector<SidePoint>& points,
+                const std::vector<OperatingCondition>& conditions) {
+  const auto pull = [](const SidePoint& point) {
+    return point.by_twin ? std::abs(point.by_twin->drawbar_pull.value) : -1.0;
+  };
+  const auto most = std::ranges::max_element(points, {}, pull);
+  if (most == points.end() || !most->by_twin) return;
+  for (Doubt& doubt : doubts)
+    if (doubt.kind == DoubtKind::coarse_grains) {
+      doubt.says[0] = in_words(*most->by_twin), doubt.says[1] = "";
+      doubt.at = conditions[static_cast<std::size_t>(most - points.begin())];
+    }
+}
+
 GrainSide grain_side(const std::vector<RecordedRun>& runs, const std::vector<OperatingCondition>& conditions,
-                     const std::filesystem::path& record) {
+                     const std::filesystem::path& record, const std::vector<RecordedRun>& coarser) {
   std::set<std::string> packings, sources;
   double seconds = 0.0;
   for (const RecordedRun& run : runs) {
@@ -145,7 +179,7 @@ GrainSide grain_side(const std::vector<RecordedRun>& runs, const std::vector<Ope
     if (!run.source.empty()) sources.insert(run.source);
     seconds += run.seconds;
   }
-  GrainSide grains{side_of("dem", runs, conditions),
+  GrainSide grains{side_of("dem", runs, conditions, coarser),
                    {{"runs of grains", fmt::format("{}, {:.0f} s in all", runs.size(), seconds)},
                     {"bed samples (seeds)", listed({packings.begin(), packings.end()})},
                     {"sources of the runs", listed({sources.begin(), sources.end()})}}};

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "compare/doubts/doubt.hpp"
+#include "compare/doubts/grain_resolution.hpp"
 #include "compare/fit/noise_floor.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/recorded/recorded_model.hpp"
@@ -42,11 +43,13 @@ struct SidePoint {
   std::array<double, channel_views.size()> freedom = known_errors();
   /// Channels that the side speaks of; a measurement may lack some.
   std::array<bool, channel_views.size()> has{true, true, true, true};
-  std::size_t runs = 1;      ///< behind the means
-  std::size_t unsteady = 0;  ///< of grains: those of them that did not become steady
-  double drift = 0.0;        ///< of grains: the largest of theirs (RecordedRun)
-  Doubts doubts;             ///< what limits them: unsteady_runs, one_bed_sample
-  std::string error;         ///< why there is no result
+  std::size_t runs = 1;                      ///< behind the means
+  std::size_t unsteady = 0;                  ///< of grains: those of them that did not become steady
+  double drift = 0.0;                        ///< of grains: the largest of theirs (RecordedRun)
+  double void_ratio = not_a_number;          ///< of grains: mean of their beds, where it is told
+  std::optional<ResolutionError> by_twin{};  ///< of grains that have a coarser twin there
+  Doubts doubts;                             ///< what limits them: unsteady_runs, one_bed_sample
+  std::string error;                         ///< why there is no result
 };
 
 /// A model or the measurement, a point for each condition of the study.
@@ -79,9 +82,17 @@ std::vector<Side> analytic_sides(Case question, const std::vector<ModelChoice>& 
 /// Runs as a side: each counts at the condition that it is alike, with mean_of_packings of those with a result. Scatter
 /// is what packing_scatter of all runs makes of their own errors, or these where they are larger: two packings at a
 /// condition say little of its scatter, all conditions together more. Doubts tell of runs that were not steady or had
-/// no result, and where no condition has several packings.
+/// no result, and where no condition has several packings. `coarser`: runs with coarser grains (RunKind), for the error
+/// of resolution.
 Side side_of(const std::string& label, const std::vector<RecordedRun>& runs,
-             const std::vector<OperatingCondition>& conditions);
+             const std::vector<OperatingCondition>& conditions, const std::vector<RecordedRun>& coarser = {});
+
+/// The error of resolution of a point of grains that has a result: by its twin; without one that of the study.
+ResolutionError resolution_error(const Scenario& scenario, const OperatingCondition& at, const SidePoint& point);
+
+/// Where points have twins, what coarse grains do is told by the largest error of these.
+void tell_twins(Doubts& doubts, const std::vector<SidePoint>& points,
+                const std::vector<OperatingCondition>& conditions);
 
 /// Grains as a side, and what a page tells of their runs.
 struct GrainSide {
@@ -91,7 +102,7 @@ struct GrainSide {
 
 /// The runs behind it; `record`: the file that keeps them, which also knows whether they hang on the time step, or "".
 GrainSide grain_side(const std::vector<RecordedRun>& runs, const std::vector<OperatingCondition>& conditions,
-                     const std::filesystem::path& record);
+                     const std::filesystem::path& record, const std::vector<RecordedRun>& coarser = {});
 
 /// Whether the bed was looser or denser, by more than 3 %, than the soil whose values the analytic model has; none
 /// where either density is not known.

@@ -75,11 +75,29 @@ Estimate times(const Estimate& estimate, double factor) {
   return {estimate.value * factor, estimate.std_error * std::abs(factor)};
 }
 
-/// The study's own wheel under its load.
-bool is_studied(const Tire& tire, const OperatingCondition& at) {
-  const auto same = [](double value, double studied) { return std::abs(value - studied) <= 0.02 * studied; };
-  return same(tire.radius, studied_radius) && same(at.load, studied_load) &&
-         (!is_lugged(tire) || same(tire.lugs.height, studied_lugs));
+bool near(double value, double studied) { return std::abs(value - studied) <= 0.02 * studied; }
+
+bool is_studied(const Tire& tire) {
+  return near(tire.radius, studied_radius) && near(tire.width, studied_width) &&
+         (!is_lugged(tire) || near(tire.lugs.height, studied_lugs));
+}
+
+bool is_studied(const GranularSoil& sand) {
+  const auto& contacts = studied_contacts;
+  return near(sand.youngs_modulus, contacts.modulus) && near(sand.grain_grain.sliding_friction, contacts.sliding) &&
+         near(sand.grain_grain.rolling_friction, contacts.rolling) &&
+         near(sand.grain_grain.cohesion, contacts.cohesion) && near(sand.grain_tire.sliding_friction, contacts.on_tire);
+}
+
+/// In how many ways a question leaves what was studied: a wheel, load or sand of its own counts once, for they were
+/// tried together.
+int departures(const Scenario& scenario, const OperatingCondition& at, double void_ratio) {
+  constexpr double same_void_ratio = 0.03;  // (chosen: a tenth of the way from dense to loose)
+  const bool another =
+      !is_studied(scenario.tire) || !near(at.load, studied_load) || !is_studied(grains_of(scenario.soil));
+  return another + !near(at.slip, with_lugs.front().slip) +
+         (at.longitudinal_incline != 0 || at.transverse_incline != 0) + (at.yaw != 0) + (at.pass > 1) +
+         (std::abs(void_ratio - studied_void_ratio) > same_void_ratio);  // none where it is not known
 }
 
 void widen(Estimate& error, double share) { error.std_error = std::hypot(error.std_error, share * error.value); }
@@ -127,7 +145,7 @@ SizeFit fit_against_size(std::span<const double> diameters, std::span<const Esti
 }
 
 ResolutionError resolution_error(const Scenario& scenario, const OperatingCondition& at, double sinkage,
-                                 SinkageOf whose) {
+                                 SinkageOf whose, double void_ratio) {
   const Tire& tire = scenario.tire;
   const double d = mean_diameter(grains_of(scenario.soil));
   static const std::vector<Slopes> lugged = slopes_of(StudiedWheel::lugged), bare = slopes_of(StudiedWheel::bare);
@@ -150,10 +168,21 @@ ResolutionError resolution_error(const Scenario& scenario, const OperatingCondit
   const double share = d / contact * slopes.contact * at.load / studied_load;
   error.drawbar_pull = times(slopes.drawbar_pull, share);
   error.torque = times(slopes.torque, share * tire.radius / studied_radius);
-  if (!is_studied(tire, at)) {
-    widen(error.drawbar_pull, carried_over.drawbar_pull), widen(error.torque, carried_over.torque);
-    widen(error.sinkage, carried_over.sinkage);
-  }
+  const double more = std::sqrt(departures(scenario, at, void_ratio));
+  widen(error.drawbar_pull, more * carried_over.drawbar_pull), widen(error.torque, more * carried_over.torque);
+  widen(error.sinkage, more * carried_over.sinkage);
+  return error;
+}
+
+ResolutionError error_by_twin(const TractionResult& answer, const TractionResult& twin, double ratio) {
+  const auto of = [&](Estimate TractionResult::*channel) {
+    const Estimate &fine = answer.*channel, &coarse = twin.*channel;
+    return Estimate{(coarse.value - fine.value) / (ratio - 1),
+                    std::hypot(coarse.std_error, fine.std_error) / (ratio - 1)};
+  };
+  ResolutionError error{of(&TractionResult::drawbar_pull), of(&TractionResult::torque), of(&TractionResult::sinkage),
+                        ""};
+  error.by_twin = true;
   return error;
 }
 
@@ -167,7 +196,8 @@ Json to_json(const ResolutionError& error) {
     return {{"drawbar_pull", nullptr}, {"torque", nullptr}, {"sinkage", nullptr}, {"beyond", error.beyond}};
   return {{"drawbar_pull", estimate_json(error.drawbar_pull)},
           {"torque", estimate_json(error.torque)},
-          {"sinkage", estimate_json(error.sinkage)}};
+          {"sinkage", estimate_json(error.sinkage)},
+          {"from", error.by_twin ? "twin" : "study"}};
 }
 
 }  // namespace soilbin::compare

@@ -41,7 +41,9 @@ WrittenJobs read_jobs(const fs::path& folder) {
       throw InputError(fmt::format("{}: {} shards of {} runs", file.string(), jobs.shards, document.at("runs").size()));
     for (const Json& row : document.at("runs"))
       jobs.plan.runs.push_back({{condition_from_json(row, file.string()), row.at("packing").get<std::uint64_t>(),
-                                 row.at("half_step").get<bool>()},
+                                 row.at("half_step").get<bool>() ? RunKind::half_step
+                                 : row.value("coarser", false)   ? RunKind::coarser
+                                                                 : RunKind::usual},
                                 row.at("recorded").get<bool>(),
                                 row.at("seconds").get<double>()});
     return jobs;

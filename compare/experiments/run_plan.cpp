@@ -49,6 +49,7 @@ class RunCosts {
   /// to be engine_over_lammps times slower than that, a process.
   RunCosts(const Scenario& scenario, const dem::DemSettings& settings, const std::vector<Record>& records);
 
+  /// Of a run, in steps on as many grains as the soil's own.
   double steps(const RunSpec& run) const;
   /// On the clock on the wall, the bed already settled [s].
   double seconds(const RunSpec& run) const { return in_run_ * steps(run) / speed_; }
@@ -76,17 +77,21 @@ RunCosts::RunCosts(const Scenario& scenario, const dem::DemSettings& settings, c
       in_run_(dem::DemModel(settings).grains_of_run(scenario)) {
   double work = 0, seconds = 0;
   for (const Record& record : records)
-    for (const bool half : {false, true})
-      for (const RecordedRun& run : record.list(half)) {
+    for (const RunKind kind : run_kinds)
+      for (const RecordedRun& run : record.list(kind)) {
         if (!run.answer.result) continue;  // it may have ended early
-          work += in_run_ * steps({run.answer.at, run.packing, half}), seconds += run.seconds;
+        work += in_run_ * steps({run.answer.at, run.packing, kind}), seconds += run.seconds;
         ++from_runs_;
       }
   speed_ = seconds > 0 ? work / seconds : trial(settings) * threads() / (settings.lammps ? engine_over_lammps : 1);
 }
 
 double RunCosts::steps(const RunSpec& run) const {
-  return dem::DemModel(settings_).expected_steps(scenario_, run.at) * (run.half_step ? 2 : 1);
+  const dem::DemModel model(settings_);
+  if (run.kind != RunKind::coarser)
+    return model.expected_steps(scenario_, run.at) * (run.kind == RunKind::half_step ? 2 : 1);
+  const Scenario coarser = with_coarser_grains(scenario_);
+  return model.expected_steps(coarser, run.at) * model.grains_of_run(coarser) / in_run_;
 }
 
 double RunCosts::bed_seconds() const {
@@ -186,7 +191,8 @@ std::string plan_text(const RunPlan& plan) {
     const PlannedRun& planned = plan.runs[k];
     table.add({std::to_string(k + 1), std::to_string(planned.packing),
                in_words(planned.at) + (planned.of_tire.empty() ? "" : ", " + planned.of_tire) +
-                   (planned.half_step ? ", half the time step" : ""),
+                   (planned.kind == RunKind::half_step ? ", half the time step" : "") +
+                   (planned.kind == RunKind::coarser ? ", coarser grains" : ""),
                planned.recorded          ? "recorded"
                : planned.refused.empty() ? duration_text(planned.seconds)
                                          : "no answer: " + planned.refused});
@@ -195,7 +201,9 @@ std::string plan_text(const RunPlan& plan) {
   std::string text = fmt::format("{}: {} of grains on {}\n\n{}\n", plan.study, counted(plan.runs.size(), "run"),
                                  counted(plan.beds, "bed"), as_text(table));
   text += fmt::format("recorded  {}\nto make   {}\n", recorded, left);
-  text += fmt::format("beds      {} to settle, {} each{}\n", plan.unsettled.size(), duration_text(plan.bed_seconds),
+  const bool twins = std::ranges::any_of(plan.runs, [](const auto& run) { return run.kind == RunKind::coarser; });
+  text += fmt::format("beds      {} to settle, {} each{}{}\n", plan.unsettled.size(), duration_text(plan.bed_seconds),
+                      twins ? ", and as many of coarser grains" : "",
                       plan.density_limits ? "" : "; soilbin bed settles two small ones as well, to tell their density");
   text += fmt::format(
       "time      about {:.2g} core-hours, {} ({}: {:.2g} million grain-steps a second, {:.0f} grains)\n",
@@ -214,7 +222,8 @@ Json plan_json(const RunPlan& plan) {
   Json runs = Json::array();
   for (const PlannedRun& planned : plan.runs) {
     Json row = to_json(planned.at);
-    row["packing"] = planned.packing, row["half_step"] = planned.half_step;
+    row["packing"] = planned.packing;
+    row["half_step"] = planned.kind == RunKind::half_step, row["coarser"] = planned.kind == RunKind::coarser;
     row["recorded"] = planned.recorded, row["seconds"] = planned.seconds;
     if (!planned.refused.empty()) row["refused"] = planned.refused;
     if (!planned.of_tire.empty()) row["tire"] = planned.of_tire;

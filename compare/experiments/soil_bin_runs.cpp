@@ -33,11 +33,12 @@ SoilBinRuns::SoilBinRuns(dem::DemSettings settings, const RunKeeping& keeping)
 }
 
 const dem::DemModel& SoilBinRuns::model(const Scenario& scenario, const RunSpec& spec) {
-  std::unique_ptr<dem::DemModel>& model = models_[{spec.packing, spec.half_step}];
+  std::unique_ptr<dem::DemModel>& model = models_[{spec.packing, spec.kind}];
   if (model) return *model;
   dem::DemSettings settings = settings_;
   settings.packing = spec.packing;
-  if (spec.half_step) settings = at_half_step(settings, scenario), settings.rig.onlooker = {};
+  if (spec.kind == RunKind::half_step) settings = at_half_step(settings, scenario);
+  if (spec.kind != RunKind::usual) settings.rig.onlooker = {};
   model = std::make_unique<dem::DemModel>(std::move(settings));
   return *model;
 }
@@ -57,7 +58,8 @@ std::string file_name_of(const RunSpec& spec) {
 
 }  // namespace
 
-RecordedRun SoilBinRuns::operator()(const Scenario& scenario, const RunSpec& spec) {
+RecordedRun SoilBinRuns::operator()(const Scenario& asked, const RunSpec& spec) {
+  const Scenario scenario = spec.kind == RunKind::coarser ? with_coarser_grains(asked) : asked;
   const auto began = std::chrono::steady_clock::now();
   const dem::DemModel& bin = model(scenario, spec);
   RecordedRun run;
@@ -81,7 +83,7 @@ RecordedRun SoilBinRuns::operator()(const Scenario& scenario, const RunSpec& spe
     recorder_.write(replay_, in_words(spec.at), spec.packing);
     wrote(replay_.file, "soilbin compare --replay shows it");
   }
-  if (!paraview_.empty() && !spec.half_step) wrote(paraview_ / (name_ + ".pvd"), "ParaView opens it");
+  if (!paraview_.empty() && spec.kind == RunKind::usual) wrote(paraview_ / (name_ + ".pvd"), "ParaView opens it");
   return run;
 }
 
@@ -115,8 +117,14 @@ RunStore store_of(const dem::DemSettings& settings, const Case& question, const 
 
 RecordedRun obtain(const RunSpec& spec, const Scenario& scenario, RunStore& store, SoilBinRuns& bin) {
   RecordedRun run = obtain(spec, store, [&](const RunSpec& missing) { return bin(scenario, missing); });
-  if (spec.half_step) refuse_a_differing_pair(store.record());
+  if (spec.kind == RunKind::half_step) refuse_a_differing_pair(store.record());
   return run;
+}
+
+Scenario with_coarser_grains(Scenario scenario) {
+  if (scenario.soil.granular)
+    scenario.soil.granular->radius_min *= coarser_by, scenario.soil.granular->radius_max *= coarser_by;
+  return scenario;
 }
 
 dem::DemSettings at_half_step(dem::DemSettings settings, const Scenario& scenario) {
@@ -133,19 +141,24 @@ std::vector<std::uint64_t> packings_from(const dem::DemSettings& settings, int p
 }
 
 std::vector<RunSpec> specs(const Case& question, const dem::DemSettings& settings, int packings,
-                           std::optional<bool> test) {
+                           std::optional<bool> test, Twins twins) {
   const std::size_t conditions = question.study.conditions.size();
   const std::size_t runs = conditions * static_cast<std::size_t>(std::max(packings, 1));
   if (runs > most_runs)  // before the list is built
     throw InputError(
         fmt::format("{} conditions on {} packings are more than {} runs of grains", conditions, packings, most_runs));
   return specs(question.study.conditions, packings_from(settings, packings),
-               test.value_or(runs >= runs_that_pay_a_test) ? TestStep::yes : TestStep::no);
+               test.value_or(runs >= runs_that_pay_a_test) ? TestStep::yes : TestStep::no, twins);
 }
 
-void check_runs(const Case& question, const dem::DemSettings& settings) {
+void check_runs(const Case& question, const dem::DemSettings& settings, Twins twins) {
   const dem::DemModel model(settings);
   model.check(question.scenario);
+  if (twins == Twins::yes) try {
+      model.check(with_coarser_grains(question.scenario));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("a twin with grains {} times as large: {}", coarser_by, error.what()));
+    }
   for (const OperatingCondition& at : question.study.conditions) model.check(question.scenario, at);
 }
 

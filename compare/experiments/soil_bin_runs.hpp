@@ -53,7 +53,7 @@ class SoilBinRuns {
   std::string name_;  ///< of the run that is made, for its files
   ReplayRecorder recorder_;
   dem::WheelRun last_;
-  std::map<std::pair<std::uint64_t, bool>, std::unique_ptr<dem::DemModel>> models_;
+  std::map<std::pair<std::uint64_t, RunKind>, std::unique_ptr<dem::DemModel>> models_;
 };
 
 /// The store of a question's runs with these settings: keeping.record, which is begun with the question whole, or
@@ -64,6 +64,10 @@ RunStore store_of(const dem::DemSettings& settings, const Case& question, const 
 /// The run of a spec: the store's, or made now and added to it. Throws TimeStepMatters where it is the second of a pair
 /// of the time step, and they are not alike (step_pair.hpp).
 RecordedRun obtain(const RunSpec& spec, const Scenario& scenario, RunStore& store, SoilBinRuns& bin);
+
+/// The scenario with grains coarser_by times as large, all else alike: with the same contacts they are the same sand
+/// (docs/lab/grain-size.md).
+Scenario with_coarser_grains(Scenario scenario);
 
 /// The settings with half the time step, on the same beds.
 dem::DemSettings at_half_step(dem::DemSettings settings, const Scenario& scenario);
@@ -81,10 +85,11 @@ inline constexpr std::size_t runs_that_pay_a_test = 12;
 /// The runs of a question's conditions on so many packings, with a test of the time step as it is asked, else by their
 /// number. Throws InputError for more than most_runs.
 std::vector<RunSpec> specs(const Case& question, const dem::DemSettings& settings, int packings,
-                           std::optional<bool> test = {});
+                           std::optional<bool> test = {}, Twins twins = Twins::no);
 
-/// Throws InputError for a condition that no wheel in the bin can be run at, and for a bin that leaves it no way.
-void check_runs(const Case& question, const dem::DemSettings& settings);
+/// Throws InputError for a condition that no wheel in the bin can be run at, and for a bin that leaves it no way; with
+/// twins also where a bin is too small for their grains.
+void check_runs(const Case& question, const dem::DemSettings& settings, Twins twins = Twins::no);
 
 /// Throws InputError where the tire or the grains of a record, which was read from `file`, are not the scenario's.
 void refuse_other_grains(const Record& record, const Scenario& scenario, const std::filesystem::path& file);

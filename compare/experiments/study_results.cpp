@@ -10,12 +10,16 @@
 namespace soilbin::compare {
 namespace {
 
-/// The runs of grains behind a model's answers, a point for each answer; none of another model.
-std::vector<SidePoint> points_of(const ModelAnswers& model, const std::vector<RecordedRun>& runs) {
-  if (model.choice.model != ModelKind::dem) return {};
+std::vector<OperatingCondition> conditions_of(const ModelAnswers& model) {
   std::vector<OperatingCondition> conditions;
   for (const Answer& answer : model.answers) conditions.push_back(answer.at);
-  return side_of("", runs, conditions).points;
+  return conditions;
+}
+
+/// The runs of grains behind a model's answers, a point for each answer; none of another model.
+std::vector<SidePoint> points_of(const ModelAnswers& model, const StudyResults& results) {
+  if (model.choice.model != ModelKind::dem) return {};
+  return side_of("", results.runs, conditions_of(model), results.coarser).points;
 }
 
 /// How many packings the answer is the mean of, and whether their runs became steady.
@@ -29,12 +33,12 @@ Json rows_with_runs(const Case& question, const StudyResults& results) {
   Json rows = rows_json(results.study);
   auto row = rows.begin();
   for (const ModelAnswers& model : results.study) {
-    const std::vector<SidePoint> points = points_of(model, results.runs);
+    const std::vector<SidePoint> points = points_of(model, results);
     for (std::size_t i = 0; i < model.answers.size(); ++i, ++row) {
       const Answer& answer = model.answers[i];
       if (points.empty() || !answer.result) continue;
-      (*row)["resolution_error"] =
-          to_json(resolution_error(question.scenario, answer.at, answer.result->sinkage.value));
+      if (points[i].result)
+        (*row)["resolution_error"] = to_json(resolution_error(question.scenario, answer.at, points[i]));
       add_runs(*row, points[i]);
     }
   }
@@ -42,10 +46,13 @@ Json rows_with_runs(const Case& question, const StudyResults& results) {
 }
 
 /// Doubts in the answers, in the record that answered for grains, and in the one that their runs are added to.
-Doubts doubts_of_study(const Case& question, const std::vector<ModelAnswers>& study, const StudyGrains& grains) {
+Doubts doubts_of_study(const Case& question, const StudyResults& results, const StudyGrains& grains) {
   const bool from_record = grains.recorded && asks(question.study, ModelKind::dem);
-  Doubts all = doubts(question, study, from_record ? step_doubts(grains.recorded->record) : Doubts());
+  Doubts all = doubts(question, results.study, from_record ? step_doubts(grains.recorded->record) : Doubts());
   if (std::filesystem::exists(grains.keeping.record)) append(all, step_doubts(read_record(grains.keeping.record)));
+  for (const ModelAnswers& model : results.study)
+    if (const std::vector<SidePoint> points = points_of(model, results); !points.empty())
+      tell_twins(all, points, conditions_of(model));
   return all;
 }
 
@@ -107,6 +114,10 @@ class Grains : public Model {
     };
     return RunOnPackings(name(), packings_from(grains_.settings, grains_.packings), run).evaluate(scenario, at);
   }
+  /// The runs with coarser grains that there are.
+  const std::vector<RecordedRun>& coarser() const {
+    return recorded_ ? recorded_->record().coarser : store_->record().coarser;
+  }
   /// Makes the runs of the list first, in its order; what a record elsewhere has is left to it.
   void make_listed(const Scenario& scenario, const Watch& watch) {
     const std::vector<RunSpec>& list = grains_.list;
@@ -135,9 +146,10 @@ StudyResults answer_study(const Case& question, const Case& whole, const StudyGr
     if (kind != ModelKind::dem) return make_model(kind);
     auto model = std::make_unique<Grains>(grains, whole, effects, results.runs);
     model->make_listed(whole.scenario, watch);
+    results.coarser = model->coarser();
     return model;
   });
-  results.doubts = doubts_of_study(question, results.study, grains);
+  results.doubts = doubts_of_study(question, results, grains);
   return results;
 }
 
@@ -145,16 +157,18 @@ GrainSideRuns run_grain_side(const Case& question, const StudyGrains& grains, co
                              const Progress& progress) {
   GrainSideRuns of;
   if (!grains.recorded) refuse_endless_runs(grains, question);
-  sweep(Grains(grains, question, effects, of.runs), question.scenario, question.study.conditions, progress);
-  of.grains =
-      grain_side(of.runs, question.study.conditions, grains.recorded ? grains.recorded->file : grains.keeping.record);
+  Grains model(grains, question, effects, of.runs);
+  model.make_listed(question.scenario, {});
+  sweep(model, question.scenario, question.study.conditions, progress);
+  of.grains = grain_side(of.runs, question.study.conditions,
+                         grains.recorded ? grains.recorded->file : grains.keeping.record, model.coarser());
   return of;
 }
 
 Remark remarks_about(const Scenario& scenario, const StudyResults& results) {
   std::map<OperatingCondition, std::string> of_runs;
   for (const ModelAnswers& model : results.study) {
-    const std::vector<SidePoint> points = points_of(model, results.runs);
+    const std::vector<SidePoint> points = points_of(model, results);
     for (std::size_t i = 0; i < points.size(); ++i)
       if (points[i].result) of_runs[model.answers[i].at] = as_remark(points[i].doubts);
   }

@@ -30,7 +30,7 @@ struct StudyGrains {
   dem::DemSettings settings{};
   int packings = 1;
   RunKeeping keeping{};
-  std::vector<RunSpec> list{};            ///< of a record that is kept: its runs, made in this order
+  std::vector<RunSpec> list{};            ///< of a record that is kept, or with twins: its runs, made in this order
   std::optional<NamedRecord> recorded{};  ///< answers without a run
 };
 
@@ -39,6 +39,7 @@ struct StudyResults {
   Doubts doubts{};
   std::optional<dem::StepCriteria> step{};  ///< of grains (step_of)
   std::vector<RecordedRun> runs{};          ///< behind the grains' answers, in the order in which they came
+  std::vector<RecordedRun> coarser{};       ///< of these, as far as there are any
 };
 
 /// Every model of the question at every condition, and what is doubtful in the answers; the step is left to step_of.

@@ -179,7 +179,7 @@ Json head_json(const Record& record) {
 Seal check_head(const Json& document, const Record& record, const std::string& file) {
   Json head = Json::object();
   for (const auto& [key, value] : document.items())
-    if (key != "runs" && key != "half_step") head[key] = value;
+    if (key != "runs" && key != "half_step" && key != "coarser") head[key] = value;
   const std::string begin_anew = "take a copy of the file, or begin another one";
   const Seal seal = check_seal(head, file + ": the inputs or the case", begin_anew);
   if (document.contains("inputs_key") && document["inputs_key"] != inputs_key(record.inputs))
@@ -249,6 +249,7 @@ Record parse_record(const SourceText& source) {
   record.sealed = check_head(document, record, source.file) == Seal::whole;
   record.runs = runs_from_json(head, "runs", record.sealed);
   if (document.contains("half_step")) record.half_step = runs_from_json(head, "half_step", record.sealed);
+  if (document.contains("coarser")) record.coarser = runs_from_json(head, "coarser", record.sealed);
   mend_efficiencies(record);
   return record;
 }
@@ -265,6 +266,7 @@ std::string record_text(const Record& record) {
   if (record.sealed) put_seal(head);
   std::string text = json_text(head);
   text.erase(text.rfind('\n', text.size() - 2));
+  if (!record.coarser.empty()) text += runs_text("coarser", record.coarser);
   if (!record.half_step.empty()) text += runs_text("half_step", record.half_step);
   return text + runs_text("runs", record.runs) + "\n}\n";
 }
@@ -277,7 +279,7 @@ void put_in_order(Record& record) {
   const auto before = [](const RecordedRun& a, const RecordedRun& b) {
     return std::tie(a.packing, a.answer.at) < std::tie(b.packing, b.answer.at);
   };
-  for (const bool half : {false, true}) std::ranges::stable_sort(record.list(half), before);
+  for (const RunKind kind : run_kinds) std::ranges::stable_sort(record.list(kind), before);
 }
 
 std::string unsealed_note(const Record& record, const std::filesystem::path& file) {
@@ -313,6 +315,11 @@ Json record_schema() {
       {"type", "array"},
       {"items", row},
       {"description", "some of the runs again, on the same bed at half the time step; absent where nobody made any"}};
+  whole.schema["properties"]["coarser"] = {
+      {"type", "array"},
+      {"items", row},
+      {"description",
+       fmt::format("some of the runs again, with grains {} times as large; absent where nobody made any", coarser_by)}};
   whole.schema["properties"]["seal"] = seal_schema("the members above");
   whole.schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   whole.schema["title"] = "A soilbin record";
@@ -341,7 +348,9 @@ void refuse_other_inputs(const Record& record, const Inputs& asked, const std::f
 
 std::string in_words(const RunSpec& spec) {
   return fmt::format("{}, bed sample {}{}", in_words(spec.at), spec.packing,
-                     spec.half_step ? ", half the time step" : "");
+                     spec.kind == RunKind::half_step ? ", half the time step"
+                     : spec.kind == RunKind::coarser ? ", coarser grains"
+                                                     : "");
 }
 
 bool answers(const RecordedRun& run, const RunSpec& spec) {
@@ -349,23 +358,34 @@ bool answers(const RecordedRun& run, const RunSpec& spec) {
 }
 
 const RecordedRun* find_run(const Record& record, const RunSpec& spec) {
-  for (const RecordedRun& run : record.list(spec.half_step))
+  for (const RecordedRun& run : record.list(spec.kind))
     if (answers(run, spec)) return &run;
   return nullptr;
 }
 
 void add_missing_runs(Record& record, const Record& other) {
-  for (const bool half : {false, true})
-    for (const RecordedRun& run : other.list(half))
-      if (find_run(record, {run.answer.at, run.packing, half}) == nullptr) record.list(half).push_back(run);
+  for (const RunKind kind : run_kinds)
+    for (const RecordedRun& run : other.list(kind))
+      if (find_run(record, {run.answer.at, run.packing, kind}) == nullptr) record.list(kind).push_back(run);
   put_in_order(record);
 }
+
+namespace {
+
+bool has_an_answer(const std::vector<RecordedRun>& runs, const OperatingCondition& at) {
+  return std::ranges::any_of(runs, [&](const auto& run) { return run.answer.result && alike(run.answer.at, at); });
+}
+
+}  // namespace
 
 std::string notes_on(const std::vector<RecordedRun>& runs) {
   std::string notes;
   double seconds = 0;
   for (const RecordedRun& run : runs) {
     seconds += run.seconds;
+    if (!run.answer.result && has_an_answer(runs, run.answer.at))
+      notes += fmt::format("no answer at {}, bed sample {}, which is left out: {}\n", in_words(run.answer.at),
+                           run.packing, run.answer.error.substr(0, run.answer.error.find('\n')));
     if (run.answer.result && !run.steady)
       notes +=
           fmt::format("not steady at {}{} (drift {:.3g} standard errors): lengthen the run\n", in_words(run.answer.at),

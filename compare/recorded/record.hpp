@@ -6,6 +6,7 @@
 //     if (run->answer.result) run->answer.result->drawbar_pull.value;  // [N]
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -23,15 +24,26 @@ namespace soilbin::compare {
 /// The inputs of an answer beside the condition and the packing, as name and value: "tire.radius", "0.496".
 using Inputs = std::vector<std::pair<std::string, std::string>>;
 
+/// Which of a record's lists a run belongs to.
+enum class RunKind {
+  usual,
+  half_step,  ///< the same on the same bed, at half the time step (step_pair.hpp)
+  coarser     ///< the same with grains coarser_by times as large (coarser_twin.hpp)
+};
+inline constexpr std::array run_kinds = {RunKind::usual, RunKind::half_step, RunKind::coarser};
+
+/// The diameters of a coarser twin's grains over the soil's own.
+inline constexpr double coarser_by = 1.4;
+
 /// A run of one wheel in one bin of one soil, which are the record's inputs: what is asked for, and what it is found
 /// by.
 struct RunSpec {
   OperatingCondition at;
   std::uint64_t packing = 1;  ///< seed of the bed
-  bool half_step = false;     ///< at half the time step: belongs to Record::half_step
+  RunKind kind = RunKind::usual;
 };
 
-/// "load 4 kN, slip 20 %, bed sample 2"; with ", half the time step" where it is that.
+/// "load 4 kN, slip 20 %, bed sample 2"; with ", half the time step" or ", coarser grains" where it is that.
 std::string in_words(const RunSpec& spec);
 
 /// One run: a condition on one packing of the bed.
@@ -60,10 +72,13 @@ struct Record {
   Inputs inputs;
   std::vector<RecordedRun> runs;
   std::vector<RecordedRun> half_step{};  ///< some of them again, on the same bed at half the time step (step_pair.hpp)
+  std::vector<RecordedRun> coarser{};    ///< some of them again, with coarser grains (coarser_twin.hpp)
   bool sealed = true;                    ///< whether a seal vouches for all above the runs
 
-  std::vector<RecordedRun>& list(bool half) { return half ? half_step : runs; }
-  const std::vector<RecordedRun>& list(bool half) const { return half ? half_step : runs; }
+  std::vector<RecordedRun>& list(RunKind kind) {
+    return kind == RunKind::usual ? runs : kind == RunKind::half_step ? half_step : coarser;
+  }
+  const std::vector<RecordedRun>& list(RunKind kind) const { return const_cast<Record*>(this)->list(kind); }
 };
 
 inline constexpr const char* recorded_format = "soilbin-recorded/1";
@@ -101,13 +116,14 @@ void refuse_other_inputs(const Record& record, const Inputs& asked, const std::f
 
 bool answers(const RecordedRun& run, const RunSpec& spec);
 
-/// Adds the runs of another record that this one lacks, at both steps, and puts all in order.
+/// Adds the runs of another record that this one lacks, of all kinds, and puts all in order.
 void add_missing_runs(Record& record, const Record& other);
 
 /// The run of a record that answers a spec; nullptr where there is none.
 const RecordedRun* find_run(const Record& record, const RunSpec& spec);
 
-/// Notes on runs beside their results: which did not become steady, how far packings differ, what it cost.
+/// Notes on runs beside their results: which packings have none where others have, which did not become steady, how far
+/// packings differ, what it cost.
 std::string notes_on(const std::vector<RecordedRun>& runs);
 
 }  // namespace soilbin::compare

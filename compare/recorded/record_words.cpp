@@ -37,6 +37,7 @@ std::string in_words(const NamedRecord& named) {
                                  named.file.string(), counted(record.runs.size(), "run"), record.model,
                                  record.half_step.size(), listed({sources.begin(), sources.end()}), record.soilbin,
                                  inputs_key(record.inputs), as_text(packings_table(record)));
+  if (!record.coarser.empty()) text += fmt::format("{} with coarser grains\n", counted(record.coarser.size(), "run"));
   for (const StepPair& pair : step_pairs(record)) text += in_words(pair) + "\n";
   return text;
 }

@@ -147,12 +147,15 @@ std::optional<double> packing_factor(const Record& record, Estimate TractionResu
   return scatter->factor;
 }
 
-TractionResult mean_of_packings(const Runs& runs) {
-  if (runs.empty()) throw InputError("no bed sample to answer with: at least one is needed");
-  for (const RecordedRun* run : runs)
-    if (!run->answer.result)
-      throw NoSolution(runs.size() == 1 ? run->answer.error
-                                        : fmt::format("bed sample {}: {}", run->packing, run->answer.error));
+TractionResult mean_of_packings(const Runs& all) {
+  if (all.empty()) throw InputError("no bed sample to answer with: at least one is needed");
+  Runs runs;
+  for (const RecordedRun* run : all)
+    if (run->answer.result) runs.push_back(run);
+  if (runs.empty())
+    throw NoSolution(all.size() == 1
+                         ? all.front()->answer.error
+                         : fmt::format("bed sample {}: {}", all.front()->packing, all.front()->answer.error));
   TractionResult mean = *runs.front()->answer.result;
   if (runs.size() == 1) return mean;
   for (const ChannelView& channel : channel_views) mean.*channel.predicted = mean_channel(runs, channel.predicted);

@@ -23,7 +23,8 @@ double freedom_over_packings(const std::vector<Estimate>& packings);
 
 /// Several packings' answers to one condition as one: mean_over_packings of the four results; mean_efficiency; means
 /// of stresses and budget.
-/// Throws NoSolution where a run has no result, and InputError for no runs.
+/// Of those with a result: one that was stopped leaves the others' answer. Throws NoSolution where none has one, and
+/// InputError for no runs.
 TractionResult mean_of_packings(const std::vector<const RecordedRun*>& runs);
 
 /// Mean variance of a single run's mean by its own error, of a channel; all runs have results.

@@ -31,16 +31,21 @@ std::optional<int> whole_number(std::string_view text) {
 }  // namespace
 
 std::vector<RunSpec> specs(const std::vector<OperatingCondition>& conditions,
-                           const std::vector<std::uint64_t>& packings, TestStep test) {
+                           const std::vector<std::uint64_t>& packings, TestStep test, Twins twins) {
   const std::vector<OperatingCondition> sorted = sorted_once(conditions);
   std::vector<RunSpec> all;
   for (const std::uint64_t packing : packings)
     for (const OperatingCondition& at : sorted) all.push_back({at, packing});
-  if (test == TestStep::no || all.empty()) return all;
-  const OperatingCondition tested = hardest(sorted);
-  const auto whole = std::ranges::find_if(all, [&](const RunSpec& spec) { return alike(spec.at, tested); });
-  std::rotate(all.begin(), whole, whole + 1);
-  all.insert(all.begin() + 1, {all.front().at, all.front().packing, true});
+  if (all.empty()) return all;
+  const std::vector<RunSpec> usual = all;
+  if (test == TestStep::yes) {
+    const OperatingCondition tested = hardest(sorted);
+    const auto whole = std::ranges::find_if(all, [&](const RunSpec& spec) { return alike(spec.at, tested); });
+    std::rotate(all.begin(), whole, whole + 1);
+    all.insert(all.begin() + 1, {all.front().at, all.front().packing, RunKind::half_step});
+  }
+  if (twins == Twins::yes)
+    for (const RunSpec& spec : usual) all.push_back({spec.at, spec.packing, RunKind::coarser});
   return all;
 }
 

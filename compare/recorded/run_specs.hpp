@@ -15,12 +15,15 @@ namespace soilbin::compare {
 
 /// Whether the hardest condition is also to be run at half the time step (step_pair.hpp).
 enum class TestStep { no, yes };
+/// Whether each run is also to be made with coarser grains (coarser_twin.hpp).
+enum class Twins { no, yes };
 
 /// Every condition on every packing, packing by packing, so that a shard needs few beds; in each as conditions compare.
 /// Conditions that are alike count once. With a test of the time step its pair comes first: the hardest condition on
 /// the first packing, then the same at half the step; so whoever has the first shard makes both, before anything else.
+/// Coarser twins come last, in the same order.
 std::vector<RunSpec> specs(const std::vector<OperatingCondition>& conditions,
-                           const std::vector<std::uint64_t>& packings, TestStep test);
+                           const std::vector<std::uint64_t>& packings, TestStep test, Twins twins = Twins::no);
 
 /// The specs that none of the records answers.
 std::vector<RunSpec> missing_runs(const std::vector<RunSpec>& specs, const std::vector<Record>& records);
@@ -42,8 +45,8 @@ std::vector<int> shard_numbers(const std::vector<bool>& half_step, int of);
 template <class Piece>
 std::vector<Piece> shard_of(const std::vector<Piece>& all, const Shard& shard) {
   std::vector<bool> half_step(all.size());
-  if constexpr (requires(const Piece& piece) { piece.half_step; })
-    for (std::size_t i = 0; i < all.size(); ++i) half_step[i] = all[i].half_step;
+  if constexpr (requires(const Piece& piece) { piece.kind; })
+    for (std::size_t i = 0; i < all.size(); ++i) half_step[i] = all[i].kind == RunKind::half_step;
   const std::vector<int> numbers = shard_numbers(half_step, shard.of);
   std::vector<Piece> mine;
   for (std::size_t i = 0; i < all.size(); ++i)

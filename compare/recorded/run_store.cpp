@@ -30,8 +30,8 @@ std::string made_by(const FoundRun& found) {
   return fmt::format("{} (made by {}, {:.0f} s)", found.file->string(), found.run.source, found.run.seconds);
 }
 
-void merge(std::vector<FoundRun>& all, FoundRun fresh, bool half_step) {
-  const RunSpec spec{fresh.run.answer.at, fresh.run.packing, half_step};
+void merge(std::vector<FoundRun>& all, FoundRun fresh, RunKind kind) {
+  const RunSpec spec{fresh.run.answer.at, fresh.run.packing, kind};
   const auto known = std::ranges::find_if(all, [&](const FoundRun& one) { return answers(one.run, spec); });
   if (known == all.end()) return all.push_back(std::move(fresh));
   if (answer_text(known->run) != answer_text(fresh.run))
@@ -43,10 +43,10 @@ void merge(std::vector<FoundRun>& all, FoundRun fresh, bool half_step) {
   if (rank(fresh.run) < rank(known->run)) *known = std::move(fresh);
 }
 
-std::vector<RecordedRun> all_of(const std::vector<NamedRecord>& shards, bool half_step) {
+std::vector<RecordedRun> all_of(const std::vector<NamedRecord>& shards, RunKind kind) {
   std::vector<FoundRun> found;
   for (const NamedRecord& shard : shards)
-    for (const RecordedRun& run : shard.record.list(half_step)) merge(found, {&shard.file, run}, half_step);
+    for (const RecordedRun& run : shard.record.list(kind)) merge(found, {&shard.file, run}, kind);
   std::vector<RecordedRun> runs;
   for (FoundRun& one : found) runs.push_back(std::move(one.run));
   return runs;
@@ -97,7 +97,7 @@ Record merged(const std::vector<NamedRecord>& shards) {
     whole.soilbin = std::min(whole.soilbin, other.record.soilbin);
     whole.sealed = whole.sealed && other.record.sealed;
   }
-  whole.runs = all_of(shards, false), whole.half_step = all_of(shards, true);
+  for (const RunKind kind : run_kinds) whole.list(kind) = all_of(shards, kind);
   put_in_order(whole);
   return whole;
 }
@@ -134,8 +134,8 @@ const RecordedRun* RunStore::find(const RunSpec& spec) {
 }
 
 void RunStore::add(const RunSpec& spec, const RecordedRun& run) {
-  Record alone{record_.soilbin, record_.model, record_.question, record_.inputs, {}, {}, record_.sealed};
-  alone.list(spec.half_step).push_back(run);
+  Record alone{record_.soilbin, record_.model, record_.question, record_.inputs, {}, {}, {}, record_.sealed};
+  alone.list(spec.kind).push_back(run);
   try {
     kept_.add([&] { add_missing_runs(record_, alone); }, record_text(alone));
   } catch (const CannotWrite& error) {  // where its restart can't be written either, this is all that is left of it

@@ -5,7 +5,6 @@
 
 #include "compare/discrepancy/causes.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/doubts/grain_resolution.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
@@ -30,8 +29,7 @@ Json side_json(const Side& side, const Case& question) {
       one["scatter"][std::string(channel_views[c].name)] = finite(point.scatter[c]);
     one["doubts"] = in_words(point.doubts);
     if (side.kind == SideKind::grains && point.result)
-      one["resolution_error"] =
-          to_json(resolution_error(question.scenario, conditions[i], point.result->sinkage.value));
+      one["resolution_error"] = to_json(resolution_error(question.scenario, conditions[i], point));
     json["points"].push_back(std::move(one));
   }
   return json;

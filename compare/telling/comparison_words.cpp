@@ -127,7 +127,7 @@ std::optional<Clause> grains_clause(const Comparison& comparison) {
       if (side.kind != SideKind::grains || !side.points[i].result) continue;
       ++with_result;
       const OperatingCondition& at = comparison.question.study.conditions[i];
-      const ResolutionError error = resolution_error(scenario, at, side.points[i].result->sinkage.value);
+      const ResolutionError error = resolution_error(scenario, at, side.points[i]);
       if (!error.known()) continue;
       const double share = error.drawbar_pull.value / at.load;
       const double its_error = error.drawbar_pull.std_error / at.load;

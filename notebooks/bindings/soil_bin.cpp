@@ -97,6 +97,10 @@ const Setting settings_by_name[] = {
     {"lowering", [](DemSettings& s) -> double& { return s.rig.lowering; }, "time in which the load comes on [s]"},
     {"resting", [](DemSettings& s) -> double& { return s.rig.resting; }, "time under the load before the start [s]"},
     {"starting", [](DemSettings& s) -> double& { return s.rig.starting; }, "time in which the motion comes on [s]"},
+    {"graded", [](DemSettings& s) -> double& { return s.graded; },
+     "grains below and beside the track up to so many times larger [-], 1 .. 4"},
+    {"until_error", [](DemSettings& s) -> double& { return s.rig.until_error; },
+     "with patch and without travel: share of the load to which the mean pull is to be known [-]"},
     {"dt", [](DemSettings& s) -> double& { return s.rig.dt; }, "[s]; 0: a fifth of the Rayleigh time"},
     {"deepest_overlap", [](DemSettings& s) -> double& { return s.rig.deepest_overlap; },
      "of the smaller radius that grains may overlap [-]"}};
@@ -104,7 +108,8 @@ const Setting settings_by_name[] = {
 /// Where settled beds are kept, if anywhere.
 using Beds = std::optional<std::filesystem::path>;
 
-DemSettings settings_of(const py::kwargs& numbers, std::uint64_t packing, const Beds& beds, bool ledger, int threads) {
+DemSettings settings_of(const py::kwargs& numbers, std::uint64_t packing, const Beds& beds, bool ledger, int threads,
+                        bool patch) {
   DemSettings out;
   for (const auto& [key, value] : numbers) {
     bool known = false;
@@ -114,7 +119,7 @@ DemSettings settings_of(const py::kwargs& numbers, std::uint64_t packing, const 
   }
   if (threads < 0) throw InputError("threads: 0 (one a core) or more");
   out.packing = packing, out.beds = beds.value_or(""), out.checkpoints.restart = out.beds;
-  out.rig.ledger = ledger, out.how.threads = threads;
+  out.rig.ledger = ledger, out.how.threads = threads, out.rig.patch = patch;
   return out;
 }
 
@@ -123,7 +128,9 @@ std::string settings_doc() {
       "packing: seed of the bed. beds: folder that keeps settled beds, and runs that are stopped, which then go on; "
       "None: "
       "neither is kept. ledger: tells "
-      "where the power goes. threads: 0, one a core or fewer; changes no bit. By keywords:";
+      "where the power goes. threads: 0, one a core or fewer; changes no bit. patch: a moving patch: only the soil "
+      "from "
+      "behind to ahead of the axle, on a bed that repeats itself every length. By keywords:";
   for (const Setting& setting : settings_by_name) doc += "\n  " + std::string(setting.name) + ": " + setting.doc;
   return doc;
 }
@@ -182,7 +189,14 @@ void bind_powers_and_marks(py::module_& module) {
 
 }  // namespace
 
-void bind_run_parts(py::module_& module) { bind_powers_and_marks(module); }
+void bind_run_parts(py::module_& module) {
+  bind_powers_and_marks(module);
+  py::class_<dem::PatchReport>(module, "PatchReport", "Of a run on a moving patch.")
+      .def_readonly("grains", &dem::PatchReport::grains, "in it at once; 0: the bed stood still")
+      .def_readonly("disturbed", &dem::PatchReport::disturbed,
+                    "how far the soil at the front had moved when it was let go, largest mean of a slab [m]")
+      .def_readonly("thrown", &dem::PatchReport::thrown, "grains that were thrown over its front end");
+}
 
 void bind_soil_bin(py::module_& module) {
   py::class_<WheelRun>(module, "WheelRun", "What a run of the soil bin tells.")
@@ -191,6 +205,7 @@ void bind_soil_bin(py::module_& module) {
       .def_readonly("steady", &WheelRun::steady, "whether the run became steady (docs/theory/soil-bin.md)")
       .def_readonly("drift", &WheelRun::drift, "largest difference of halves over its standard error")
       .def_readonly("steady_from", &WheelRun::steady_from, "first sample that counts")
+      .def_readonly("patch", &WheelRun::patch)
       .def_readonly("rut", &WheelRun::rut)
       .def_readonly("flow", &WheelRun::flow)
       .def_property_readonly(
@@ -199,11 +214,12 @@ void bind_soil_bin(py::module_& module) {
           "force [N] and moment [N m] of the soil on the wheel (three columns), ...");
   py::class_<SoilBin>(module, "SoilBin",
                       "A virtual soil bin: a case's tire over a settled bed of its grains. Keeps its beds.")
-      .def(py::init([](std::uint64_t packing, const Beds& beds, bool ledger, int threads, const py::kwargs& numbers) {
-             return std::make_unique<SoilBin>(settings_of(numbers, packing, beds, ledger, threads));
+      .def(py::init([](std::uint64_t packing, const Beds& beds, bool ledger, int threads, bool patch,
+                       const py::kwargs& numbers) {
+             return std::make_unique<SoilBin>(settings_of(numbers, packing, beds, ledger, threads, patch));
            }),
            py::arg("packing") = 1, py::arg("beds") = py::none(), py::arg("ledger") = false, py::arg("threads") = 0,
-           settings_doc().c_str())
+           py::arg("patch") = false, settings_doc().c_str())
       .def("run", &SoilBin::run, py::arg("scenario"), py::arg("at"), py::arg("progress") = py::none(),
            "One run. progress: called with (share done, stage). Raises InputError for a bed too small and for what "
            "grains can't do (effects, a second pass), NoSolution where the wheel digs itself in, RunStopped.")

@@ -184,6 +184,7 @@ std::string sample_of_grains(const std::string& flag, const Scratch& scratch) {
                                                      {"--until-error", "0.02"},
                                                      {"--packings", "3"},
                                                      {"--half-step", "yes"},
+                                                     {"--coarser-twin", ""},
                                                      {"--engine", "lammps"},
                                                      {"--ranks", "2"},
                                                      {"--settled-by", "soilbin"},
@@ -226,7 +227,8 @@ TEST(SlowIgnoredInput, FlagsOfGrainsAreRefusedWhereNoGrainsAreAsked) {
 }
 
 TEST(IgnoredInput, BesideARecordNoFlagOfRunsIsTaken) {
-  for (const char* flag : {"--packings=3", "--threads=2", "--half-step=yes", "--dry-run", "--engine=lammps"})
+  for (const char* flag :
+       {"--packings=3", "--threads=2", "--half-step=yes", "--coarser-twin", "--dry-run", "--engine=lammps"})
     EXPECT_THAT(soilbin(std::string("run paper-straight --recorded ") + flag).err, HasSubstr("on recorded runs"))
         << flag;
 }

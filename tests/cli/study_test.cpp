@@ -204,6 +204,44 @@ fs::path pebble_case(const Scratch& folder, const std::string& slip) {
                           slip + ", speed: 0.6 m/s}\n");
 }
 
+// The run at the soil's grains and the one with coarser ones give the error of resolution of this very answer; the
+// record keeps both, and answers with them.
+TEST(SlowRun, ACoarserTwinTellsTheErrorOfResolution) {
+  const Scratch scratch;
+  const std::string study = "'" + pebble_case(scratch, "20 %").string() + "' --json",
+                    bed =
+                        " --bed-length 0.6m --bed-width 0.25m --bed-depth 0.12m --threads 1 --patch --behind 0.15m "
+                        "--ahead 0.2m --travel 0.3m",
+                    file = "'" + (scratch / "r.json").string() + "'";
+  std::string shallow = bed;
+  shallow.replace(shallow.find("0.12m"), 5, "0.09m");
+  setenv("SOILBIN_BEDS", (scratch / "beds").c_str(), 1);
+  const Outcome plan = soilbin("run " + study + bed + " --coarser-twin --dry-run");
+  const Outcome plain = soilbin("run " + study + bed + " --record " + file);
+  const Outcome twins = soilbin("run " + study + bed + " --coarser-twin --record " + file);
+  unsetenv("SOILBIN_BEDS");
+  ASSERT_EQ(twins.status, 0) << twins.err;
+  const nlohmann::json runs = plan.json()["runs"];
+  ASSERT_EQ(runs.size(), 2U) << plan.err;
+  EXPECT_FALSE(runs[0]["coarser"].get<bool>());
+  EXPECT_TRUE(runs[1]["coarser"].get<bool>());
+  EXPECT_THAT(soilbin("run " + study + shallow + " --coarser-twin --dry-run").err,
+              HasSubstr("a twin with grains 1.4 times as large: a bed of"));
+  EXPECT_LT(runs[1]["seconds"].get<double>(), 0.5 * runs[0]["seconds"].get<double>());
+  nlohmann::json before = plain.json()["rows"][0], row = twins.json()["rows"][0];
+  const nlohmann::json record = nlohmann::json::parse(text_of(scratch / "r.json"));
+  ASSERT_EQ(record["coarser"].size(), 1U);
+  EXPECT_EQ(row["resolution_error"]["from"], "twin");
+  EXPECT_NEAR(row["resolution_error"]["drawbar_pull"]["value"].get<double>(),
+              (record["coarser"][0]["drawbar_pull"].get<double>() - row["drawbar_pull"].get<double>()) / 0.4, 1e-9);
+  EXPECT_NE(before["resolution_error"]["from"], "twin");
+  before.erase("resolution_error"), row.erase("resolution_error");
+  EXPECT_EQ(before, row) << "the answer itself is the same";
+  EXPECT_EQ(soilbin("run " + study + " --recorded " + file).json()["rows"], twins.json()["rows"]);
+  const nlohmann::json side = soilbin("compare --no-loop " + study + " --recorded " + file).json()["sides"][0];
+  EXPECT_EQ(side["points"][0]["resolution_error"]["from"], "twin");
+}
+
 // A plan is refused for what would refuse its runs, and warns of what they would be warned of.
 TEST(Run, ADryRunJudgesWhatTheRunsWouldMeet) {
   const Scratch scratch;

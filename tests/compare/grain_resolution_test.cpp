@@ -12,7 +12,8 @@
 #include <map>
 #include <vector>
 
-#include "compare/recorded/record.hpp"
+#include "compare/discrepancy/side.hpp"
+#include "compare/recorded/run_store.hpp"
 #include "scenario/errors.hpp"
 #include "tests/fixtures.hpp"
 
@@ -28,9 +29,14 @@ constexpr std::array<StudiedWheel, 2> both_wheels = {StudiedWheel::lugged, Studi
 Scenario studied_wheel(double diameter, StudiedWheel wheel = StudiedWheel::lugged) {
   Scenario scenario = test::wheel_on_sand();
   Tire& tire = scenario.tire;
-  tire.radius = studied_radius, tire.width = 0.305, tire.lugs.height = wheel == StudiedWheel::lugged ? studied_lugs : 0;
+  tire.radius = studied_radius, tire.width = studied_width,
+  tire.lugs.height = wheel == StudiedWheel::lugged ? studied_lugs : 0;
   GranularSoil grains;
   grains.radius_min = 0.375 * diameter, grains.radius_max = 0.625 * diameter;
+  grains.youngs_modulus = studied_contacts.modulus, grains.grain_tire.sliding_friction = studied_contacts.on_tire;
+  grains.grain_grain.sliding_friction = studied_contacts.sliding;
+  grains.grain_grain.rolling_friction = studied_contacts.rolling;
+  grains.grain_grain.cohesion = studied_contacts.cohesion;
   scenario.soil.granular = grains;
   return scenario;
 }
@@ -187,6 +193,97 @@ TEST(GrainResolution, IsLessCertainForAnotherWheelOrLoad) {
     EXPECT_GT(error.torque.std_error, carried_over.torque * std::abs(error.torque.value));
     EXPECT_GT(error.sinkage.std_error, carried_over.sinkage * std::abs(error.sinkage.value));
   }
+}
+
+// What the study has not looked at widens its error, by each once: it had told +333 +- 57 N of a narrow tire on hard
+// grains, up and across a slope, at yaw.
+TEST(GrainResolution, IsWidenedByWhatTheStudyHasNotLookedAt) {
+  const Scenario studied = studied_wheel(0.02);
+  const OperatingCondition at = condition(studied_load, 0.2);
+  const Estimate own = resolution_error(studied, at, 0.03).drawbar_pull;
+  const auto shares = [&](const Scenario& asked, const OperatingCondition& where, double void_ratio = 0.507) {
+    const Estimate error = resolution_error(asked, where, 0.03, SinkageOf::grains, void_ratio).drawbar_pull;
+    EXPECT_NEAR(error.value, own.value, 0.2 * own.value);
+    return std::pow(error.std_error / error.value, 2) - std::pow(own.std_error / own.value, 2);
+  };
+  const double once = std::pow(carried_over.drawbar_pull, 2);
+  EXPECT_NEAR(shares(studied, at), 0, 1e-9);
+  Scenario narrow = studied, hard = studied, free = studied;
+  narrow.tire.width = 0.1, hard.soil.granular->youngs_modulus = 200e6, free.soil.granular->grain_grain.cohesion = 0;
+  for (const Scenario& other : {narrow, hard, free}) EXPECT_NEAR(shares(other, at), once, 1e-9);
+  Scenario narrow_and_hard = narrow;
+  narrow_and_hard.soil = hard.soil;
+  EXPECT_NEAR(shares(narrow_and_hard, at), once, 1e-9) << "tried together";
+  OperatingCondition up = at, across = at, turned = at, again = at, slipping = at, all = at;
+  up.longitudinal_incline = 0.26, across.transverse_incline = 0.26, turned.yaw = 0.35, again.pass = 2,
+  slipping.slip = 0.28;
+  for (const OperatingCondition& where : {up, across, turned, again, slipping})
+    EXPECT_NEAR(shares(studied, where), once, 1e-9);
+  EXPECT_NEAR(shares(studied, at, 0.7), once, 1e-9) << "a loose bed";
+  all.longitudinal_incline = all.transverse_incline = 0.26, all.yaw = 0.35;
+  EXPECT_NEAR(shares(narrow_and_hard, all, 0.7), 4 * once, 1e-9);
+}
+
+TractionResult told(Estimate pull, Estimate torque, Estimate sinkage) {
+  TractionResult result;
+  result.at = condition(studied_load, 0.2);
+  result.drawbar_pull = pull, result.torque = torque, result.sinkage = sinkage;
+  return result;
+}
+
+// A line through 700 N at d and 900 N at 1.4 d gives 200 N, 500 N less, for d -> 0; errors of 30 and 40 N give 50/0.4.
+TEST(CoarserTwin, GivesTheErrorOfAStraightLine) {
+  const ResolutionError error =
+      error_by_twin(told({700, 30}, {600, 0}, {0.020, 0.0003}), told({900, 40}, {680, 0}, {0.016, 0.0004}), 1.4);
+  EXPECT_TRUE(error.known() && error.by_twin);
+  EXPECT_NEAR(error.drawbar_pull.value, 500, 1e-9);
+  EXPECT_NEAR(error.drawbar_pull.std_error, 125, 1e-9);
+  EXPECT_NEAR(error.torque.value, 200, 1e-9);
+  EXPECT_NEAR(error.sinkage.value, -0.010, 1e-12);
+  EXPECT_NEAR(error.sinkage.std_error, 0.00125, 1e-12);
+  EXPECT_EQ(to_json(error)["from"], "twin");
+}
+
+RecordedRun run_of(const TractionResult& result) {
+  RecordedRun run{.answer = {result.at, result, ""}, .source = "abc", .power = {}, .rut = {}, .flow = {}};
+  run.bed.void_ratio = studied_void_ratio;
+  return run;
+}
+
+TEST(CoarserTwin, AnAnswerCarriesItsOwnError) {
+  const Scenario scenario = studied_wheel(0.02);
+  const std::vector<RecordedRun> runs = {run_of(told({700, 30}, {600, 10}, {0.02, 0.001}))},
+                                 coarser = {run_of(told({900, 40}, {680, 10}, {0.016, 0.001}))};
+  const std::vector<OperatingCondition> at = {runs[0].answer.at};
+  const SidePoint alone = side_of("dem", runs, at).points.at(0), with = side_of("dem", runs, at, coarser).points.at(0);
+  EXPECT_FALSE(resolution_error(scenario, at[0], alone).by_twin);
+  EXPECT_EQ(to_json(resolution_error(scenario, at[0], alone))["from"], "study");
+  const ResolutionError own = resolution_error(scenario, at[0], with);
+  EXPECT_TRUE(own.by_twin);
+  EXPECT_NEAR(own.drawbar_pull.value, 500, 1e-9);
+  EXPECT_NEAR(own.drawbar_pull.std_error, 125, 1e-9);
+  Doubts doubts = {Doubt{DoubtKind::coarse_grains, {"by the study", "", 20.0, 15.0, 10.0, 5.0, 10.0, 0.5, 1.0}}};
+  tell_twins(doubts, {alone}, at);
+  EXPECT_THAT(in_words(doubts[0]), HasSubstr("by the study"));
+  tell_twins(doubts, {with}, at);
+  EXPECT_THAT(in_words(doubts[0]), HasSubstr("estimated error drawbar pull +500 ± 125 N"));
+  EXPECT_FALSE(side_of("dem", runs, {condition(8000, 0.2)}, coarser).points.at(0).by_twin);
+}
+
+TEST(CoarserTwin, ComesBackFromTheFileAndFromShards) {
+  Record record{.soilbin = "0.1.0", .model = "dem", .question = "name: made\n", .inputs = {}, .runs = {}};
+  record.runs = {run_of(told({700, 30}, {600, 10}, {0.02, 0.001}))};
+  Record other = record;
+  other.runs.clear(), other.coarser = {run_of(told({900, 40}, {680, 10}, {0.016, 0.001}))};
+  const std::string text = record_text(merged({{"a.json", record}, {"b.json", other}}));
+  const Record back = parse_record({"r.json", text});
+  EXPECT_EQ(record_text(back), text);
+  ASSERT_EQ(back.coarser.size(), 1U);
+  EXPECT_EQ(back.coarser[0].answer.result->drawbar_pull.value, 900);
+  const OperatingCondition at = back.coarser[0].answer.at;
+  EXPECT_EQ(find_run(back, {at, 1, RunKind::coarser}), &back.coarser[0]);
+  EXPECT_EQ(find_run(back, {at, 1}), &back.runs[0]);
+  EXPECT_EQ(record_text(merged({{"r.json", back}, {"a.json", record}})), text) << "merged again";
 }
 
 // Between studied slips an error lies between theirs, at the same depth of the contact's fine end.

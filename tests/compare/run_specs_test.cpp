@@ -61,6 +61,19 @@ TEST(RunSpecs, BeginsWithTheHardestConditionAtBothSteps) {
   EXPECT_EQ(once.size(), 13U) << "nothing twice";
 }
 
+TEST(RunSpecs, CoarserTwinsComeLastEachOnce) {
+  const auto plain = specs(six_conditions(), {1, 2}, TestStep::yes);
+  const auto list = specs(six_conditions(), {1, 2}, TestStep::yes, Twins::yes);
+  ASSERT_EQ(list.size(), plain.size() + 12);
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    EXPECT_EQ(list[k].kind == RunKind::coarser, k >= plain.size()) << k;
+    if (k < plain.size()) {
+      EXPECT_EQ(in_words(list[k]), in_words(plain[k]));
+    }
+  }
+  EXPECT_THAT(in_words(list.back()), testing::EndsWith(", bed sample 2, coarser grains"));
+}
+
 TEST(RunSpecs, NothingAskedIsNoRun) {
   EXPECT_TRUE(specs({}, {1}, TestStep::yes).empty());
   EXPECT_TRUE(shard_of(std::vector<RunSpec>{}, {1, 4}).empty());
@@ -77,7 +90,7 @@ TEST(Shards, AreTheListInStretches) {
       for (int number = 1; number <= of; ++number) {
         const auto mine = shard_of(list, {number, of});
         if (!mine.empty()) {
-          EXPECT_FALSE(mine.front().half_step) << number << " of " << of;
+          EXPECT_NE(mine.front().kind, RunKind::half_step) << number << " of " << of;
         }
         together.insert(together.end(), mine.begin(), mine.end());
         least = std::min(least, mine.size()), most = std::max(most, mine.size());
@@ -93,7 +106,7 @@ TEST(Shards, TheFirstMakesThePairOfTheTimeStep) {
   for (const int of : {1, 2, 4, 6}) {
     const auto first = shard_of(list, {1, of});
     ASSERT_GE(first.size(), 2U);
-    EXPECT_TRUE(first[1].half_step) << of << " shards";
+    EXPECT_EQ(first[1].kind, RunKind::half_step) << of << " shards";
   }
 }
 

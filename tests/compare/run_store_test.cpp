@@ -309,7 +309,7 @@ TEST(SlowMerge, OfManyRunsCopiesNone) {
   for (int k = 0; k < 6000; ++k) {
     OperatingCondition at;
     at.load = 100.0 + k, at.slip = 0.1;
-    RecordedRun run = answered({at, 1, false});
+    RecordedRun run = answered({at, 1});
     run.answer.result->patch.resize(180);
     shards[static_cast<std::size_t>(k % 2)].record.runs.push_back(std::move(run));
   }

@@ -103,6 +103,24 @@ TEST(MovingPatch, WithoutAWheelStaysAtRestWhileItGoesOn) {
   EXPECT_EQ(patch.thrown(), 0);
 }
 
+TEST(SlowMovingPatch, OfAGradedBedStaysAtRestWhileItGoesOn) {
+  BedRecipe recipe = tile_recipe();
+  recipe.soil.radius_min = 0.005, recipe.soil.radius_max = 0.007, recipe.size = {0.3, 0.2, 0.1};
+  recipe.grading = {.factor = 2, .half_width = 0.05, .depth = 0.04, .transition = 0.03};
+  const SettledBed bed = settle_bed(recipe, with_threads(1));
+  const double advance = slab_of_patch(recipe);
+  MovingPatch patch(tile_of(bed.setup, bed.state), {.behind = 0.12, .ahead = 0.13, .slab = advance});
+  Simulation simulation = patch.open(bed.setup, bed.state, 1);
+  for (int k = 0; k < 8; ++k) {
+    simulation.run(50);
+    patch.follow(simulation, 0.12 + static_cast<double>(patch.advances() + 1) * advance);
+    EXPECT_LT(unrest(simulation).kinetic, recipe.rest.kinetic) << k;
+    EXPECT_LT(unrest(simulation).unbalanced, recipe.rest.unbalanced) << k;
+  }
+  EXPECT_GT(static_cast<double>(patch.advances()) * advance, recipe.size.length) << "the whole tile came in";
+  EXPECT_LT(patch.disturbed(), 1e-3 * mean_diameter(recipe.soil));
+}
+
 TEST(MovingPatch, EndsInWhatIsHeldAndNothingElseIs) {
   MovingPatch patch(tile_of(tile_bed().setup, tile_bed().state), small_patch());
   Simulation simulation = patch.open(patch_setup(), tile_bed().state, 1);

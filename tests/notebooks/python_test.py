@@ -681,6 +681,11 @@ class Recording(unittest.TestCase):
             mine, theirs = (compare.record_frame(r).drop(columns="seconds") for r in (record, whole))
             self.assertTrue(mine.equals(theirs))
             self.assertEqual(list(mine["packing"]), [1, 1, 2, 2])  # the order of a run list: bed by bed
+            tile = dem.SoilBin(beds=folder, threads=1, patch=True, length=0.3, width=0.16, depth=0.06, behind=0.12,
+                               ahead=0.16, travel=0.1, lowering=0.1, resting=0.05)
+            run = dem.run_wheel(tile, case.scenario, case.study.conditions[0], None)
+            self.assertGreater(run.patch.grains, 100)
+            self.assertLess(run.patch.disturbed, 0.02)
             other = dem.SoilBin(beds=folder, threads=1, length=0.7, width=0.16, depth=0.06)
             with self.assertRaises(soilbin.InputError):
                 dem.record_runs(case, file, other, progress=None)

@@ -19,6 +19,7 @@ from soilbin._soilbin import (
     Material,
     NormalLaw,
     OperatingCondition,
+    PatchReport,
     PlateRun,
     Record,
     RollingLaw,
@@ -35,7 +36,7 @@ from soilbin.progress import Progress, told_to
 
 __all__ = [
     "AngleOfReposeResult", "AnnulusRun", "CohesionLaw", "DirectShearResult", "GranularSoil", "Interaction", "Material",
-    "NormalLaw", "PlateRun", "RollingLaw", "Simulation", "SoilBin", "StrengthLine", "TiltingBoardResult",
+    "NormalLaw", "PatchReport", "PlateRun", "RollingLaw", "Simulation", "SoilBin", "StrengthLine", "TiltingBoardResult",
     "TriaxialResult", "WheelRun", "angle_of_repose", "annular_shear", "direct_shear", "plate_sinkage", "record_runs",
     "run_wheel", "samples_frame", "tilting_board", "triaxial",
 ]
