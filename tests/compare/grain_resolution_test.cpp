@@ -266,7 +266,7 @@ TEST(CoarserTwin, AnAnswerCarriesItsOwnError) {
   tell_twins(doubts, {alone}, at);
   EXPECT_THAT(in_words(doubts[0]), HasSubstr("by the study"));
   tell_twins(doubts, {with}, at);
-  EXPECT_THAT(in_words(doubts[0]), HasSubstr("estimated error drawbar pull +500 ± 130 N"));
+  EXPECT_THAT(in_words(doubts[0]), HasSubstr("estimated error drawbar pull +500 ± 125 N"));
   EXPECT_FALSE(side_of("dem", runs, {condition(8000, 0.2)}, coarser).points.at(0).by_twin);
 }
 
