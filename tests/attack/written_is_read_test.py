@@ -6,7 +6,7 @@ import json
 import re
 import unittest
 
-from attack import BED, BOARD, PEBBLES, Attack
+from attack import BOARD, Attack
 
 PLATES = "test,plate_diameter_mm,sinkage_mm,pressure_kPa\n"
 WHEEL = ["estimate", "--tire", "paper-lugged"]
@@ -139,26 +139,6 @@ class WhatIsWritten(Attack):
         self.answer("compare", self.case, "--recorded", "shown.json", "--no-loop", "--replay", "run.replay", "--report",
                     "page.html")
         self.assertIn("replay", (self.here / "page.html").read_text())
-
-    def test_a_map_store_goes_on_is_shared_out_and_answers_alone(self):
-        ask = ["failure-map", self.case, "--soil", "dry-sand", "--load", "50N..70N", "--lug-height", "0mm..5mm",
-               "--angle", "0deg..5deg", "--slip", "10%..30%", "--first", "6", "--boundary", "0", "--rounds", "0", *BED]
-        first = self.strict(self.answer(*ask, "--store", "map.json", "--json", within=300))
-        self.strict((self.here / "map.json").read_text())
-        self.assertEqual(self.strict(self.answer(*ask, "--store", "map.json", "--stored", "--json"))["rows"], first["rows"])
-        self.answer(*ask, "--store", "shared.json", "--ask", "6", "--batch", "batch.json", status=3)
-        self.strict((self.here / "batch.json").read_text())
-        self.answer(*ask, "--batch", "batch.json", "--shard", "1/1", "--store", "shard.json", within=300)
-        told = self.strict(self.answer(*ask, "--store", "shared.json", "--tell", "shard.json", "--json"))
-        self.assertEqual(told["rows"], first["rows"])
-
-    def test_a_bevameters_soil_is_a_soil(self):
-        (self.here / "stiffer.yaml").write_text(PEBBLES.replace("youngs_modulus: 2 MPa", "youngs_modulus: 10 MPa"))
-        self.strict(self.answer("bevameter", "stiffer.yaml", "--packings", "1", "--threads", "1", "--plate",
-                                "200mm,260mm", "--plate-sinkage", "20mm", "--output", "measured.yaml", "--json",
-                                within=600))
-        self.answer("check", "measured.yaml")
-        self.answer(*WHEEL, "--soil", "measured.yaml", "--load", "1kN", "--slip", "20%")
 
     def test_a_calibrated_soil_is_a_soil(self):
         status, out, err = self.soilbin(*BOARD, "--output", "calibrated.yaml")
