@@ -191,6 +191,7 @@ TEST_F(SlowInclineMap, TellsItInWordsAsAPageAndAsJson) {
     EXPECT_NE(page.find(part, answer), std::string::npos) << part;
   EXPECT_THAT(page, HasSubstr("Where may I trust the quick estimate?"));
   EXPECT_LT(page.find("sliding-map"), page.find("Cross-validated error of the map"));
+  EXPECT_EQ(page.find("Cross-validated error of the map"), page.rfind("Cross-validated error of the map"));
   EXPECT_THAT(page, HasSubstr("class=\"plot heat\""));
   EXPECT_THAT(page, HasSubstr("soilbin failure-map made"));
 }
