@@ -31,6 +31,7 @@ void add_bevameter(CLI::App& app, Session& session);
 void add_drive(CLI::App& app, Session& session);
 void add_runs(CLI::App& app, Session& session);
 void add_plates(CLI::App& app, Session& session);
+void add_shear(CLI::App& app, Session& session);
 void add_limits(CLI::App& app, Session& session);
 void add_predict(CLI::App& app, Session& session);
 void add_calibrate(CLI::App& app, Session& session);

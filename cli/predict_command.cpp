@@ -12,6 +12,7 @@
 #include "compare/sweep/prediction.hpp"
 #include "compare/telling/loop_report.hpp"
 #include "compare/telling/reports.hpp"
+#include "resistive_force/model.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {
@@ -24,32 +25,40 @@ struct PredictOptions {
 
 /// A wheel to predict with, and where its soil and effects come from.
 struct Predictor {
+  ModelKind kind = ModelKind::bekker_wong;
   Scenario scenario;
   std::string from;
 };
 
-/// The campaign's wheel and bin with its declared soil and effects, or those of a resolved model file.
+/// The campaign's wheel and bin with its declared soil and effects, or those of a resolved model file; or its wheel by
+/// resistive force theory.
 Predictor predictor_for(const PredictOptions& options, const compare::Campaign& campaign, const Workplace& place) {
   Scenario scenario = compare::scenario_of(campaign);
-  if (options.model.empty()) return {std::move(scenario), "the declared soil and not fitted"};
+  if (options.model.empty()) return {ModelKind::bekker_wong, std::move(scenario), "the declared soil and not fitted"};
+  if (options.model == resistive_force::model_name) {
+    scenario.effects.clear();
+    return {ModelKind::rft, std::move(scenario), "the declared soil, by resistive force theory, and not fitted"};
+  }
   const Case fitted = find_study(place, options.model);
   if (fitted.study.models.size() != 1 || fitted.study.models.front().model != ModelKind::bekker_wong)
     throw InputError(options.model + ": a model file for predict holds one model, bekker_wong");
   scenario.soil = fitted.scenario.soil;
   const bool to_these = fitted.source == compare::source_of_fit(campaign.name);
   return {
-      seen_by(fitted.study.models.front(), std::move(scenario)),
+      ModelKind::bekker_wong, seen_by(fitted.study.models.front(), std::move(scenario)),
       options.model + (to_these ? ", which was fitted to these runs: the loop tells its error on conditions left out"
                                 : " and not fitted")};
 }
 
 int predict(const PredictOptions& options, const Session& session) {
   const compare::Campaign campaign = find_campaign(session.place, options.campaign);
-  const auto [scenario, from] = predictor_for(options, campaign, session.place);
-  const auto model = compare::make_model(ModelKind::bekker_wong);
+  const auto [kind, scenario, from] = predictor_for(options, campaign, session.place);
+  const auto model = compare::make_model(kind);
   const compare::Prediction prediction = compare::predict(*model, scenario, campaign, shown_progress());
   const Outputs outputs = publish(compare::report_on(prediction, campaign, scenario, from), options.outputs,
-                                  compare::doubts(campaign, scenario, prediction), session);
+                                  kind == ModelKind::rft ? compare::resistive_force_doubts(scenario.soil)
+                                                         : compare::doubts(campaign, scenario, prediction),
+                                  session);
   if (prediction.unsolved < prediction.runs.size()) return outputs.status(done);
   fmt::print(stderr, "soilbin: no run of the campaign has a solution\n");
   return failed;
@@ -66,8 +75,8 @@ void add_predict(CLI::App& app, Session& session) {
       ->required();
   command
       ->add_option("--model", options->model,
-                   "a resolved model (soilbin-case/1) in place of the declared soil and effects")
-      ->type_name("FILE");
+                   "a resolved model (soilbin-case/1) in place of the declared soil and effects; or rft")
+      ->type_name("FILE|rft");
   options->outputs.add_to(*command, {.json = "soilbin-predict/1, in SI",
                                      .plot = "draw measured and predicted against slip",
                                      .csv = "save each run as measured and as predicted"});

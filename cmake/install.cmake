@@ -1,10 +1,11 @@
 # What `cmake --install` lays down: the command, the libraries with the headers that docs/reference/cpp-api.md names, the
 # cases, the docs, and a CMake package, so that find_package(soilbin) gives soilbin::scenario, soilbin::bekker_wong,
-# soilbin::dem, soilbin::compare and soilbin::experiments (compare/experiments).
+# soilbin::dem, soilbin::resistive_force, soilbin::compare, and of them soilbin::surface (dem/surface) and
+# soilbin::experiments (compare/experiments).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(floors scenario bekker_wong dem compare)
+set(floors scenario bekker_wong dem resistive_force compare)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/soilbin)
 
 if(TARGET soilbin)
@@ -24,7 +25,7 @@ if(TARGET soilbin)  # in place of the page that says how to get it
 endif()
 
 install(TARGETS soilbin_options EXPORT soilbin)
-foreach(library IN LISTS floors ITEMS experiments)
+foreach(library IN LISTS floors ITEMS surface experiments)
   set_target_properties(soilbin_${library} PROPERTIES EXPORT_NAME ${library})
   install(TARGETS soilbin_${library} EXPORT soilbin ARCHIVE COMPONENT development)
 endforeach()

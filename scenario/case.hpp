@@ -24,10 +24,10 @@
 namespace soilbin {
 
 /// The models that a study can ask.
-enum class ModelKind { bekker_wong, dem };
+enum class ModelKind { bekker_wong, dem, rft };
 
-constexpr std::array<Word<ModelKind>, 2> words_of(std::type_identity<ModelKind>) {
-  return {{{"bekker_wong", ModelKind::bekker_wong}, {"dem", ModelKind::dem}}};
+constexpr std::array<Word<ModelKind>, 3> words_of(std::type_identity<ModelKind>) {
+  return {{{"bekker_wong", ModelKind::bekker_wong}, {"dem", ModelKind::dem}, {"rft", ModelKind::rft}}};
 }
 
 /// A model and the effects that it is to show.

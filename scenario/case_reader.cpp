@@ -31,6 +31,12 @@ void check_soil_for(const ModelChoice& choice, const Soil& soil, const YamlNode&
                    fmt::format("model 'dem' needs the soil's 'granular' section; '{}' has none", clipped(soil.name)));
   if (choice.model == ModelKind::dem && !choice.effects.empty())
     reading.refuse(node, "model 'dem' takes no effects: grains show them or they don't");
+  if (choice.model == ModelKind::rft && !choice.effects.empty())
+    reading.refuse(node, "model 'rft' takes no effects: they are of bekker_wong's stresses");
+  if (choice.model == ModelKind::rft && !soil.resistive_force && !soil.semi_empirical)
+    reading.refuse(node, fmt::format("model 'rft' needs the soil's 'resistive_force' section, or 'semi_empirical' to "
+                                     "estimate it from; '{}' has neither",
+                                     clipped(soil.name)));
 }
 
 /// The effects of a model or a drive, and how they and the soil err where a fit found both.
@@ -62,7 +68,7 @@ ModelChoice read_model(const YamlNode& node, const Soil& soil, const EffectVocab
   } else {
     expect_keys(node, {"model", "effects", "label", "errors", "misfit"}, reading);
     choice.model =
-        read_choice<ModelKind>(*value_of(node, "model", Need::required, "bekker_wong or dem", reading), reading);
+        read_choice<ModelKind>(*value_of(node, "model", Need::required, "bekker_wong, dem or rft", reading), reading);
     read_effects_and_errors(node, effects, reading, choice);
     if (const YamlNode* misfit = value_of(node, "misfit", Need::optional, "what a fit missed, by channel", reading))
       choice.misfit = read_misfit(*misfit, reading);

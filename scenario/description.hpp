@@ -197,16 +197,26 @@ inline std::string contradiction(const GranularSoil& soil) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, std::type_identity<ResistiveForceSoil>) {
+  v.number("xi_n", &ResistiveForceSoil::xi_n, Measure{"kN/m^3", above_zero}, Need::required,
+           "stress per depth, over the response of resistive force theory; a level plate bears 0.875 of it");
+  v.number("surface_friction", &ResistiveForceSoil::surface_friction, Measure{"-", zero_or_more}, Need::required,
+           "coefficient of friction between soil and wheel");
+}
+
+template <class Visitor>
 void describe(Visitor& v, std::type_identity<Soil>) {
   v.text("name", &Soil::name, Need::optional, "what to call the soil");
   v.text("source", &Soil::source, Need::optional, "where the soil as a whole is described");
   v.number("moisture", &Soil::moisture, Measure{"%", fractions}, Need::optional, "water content by mass");
   v.group("semi_empirical", &Soil::semi_empirical, Need::optional, "values of the Bekker / Wong-Reece model");
   v.group("granular", &Soil::granular, Need::optional, "grains of the discrete element model");
+  v.group("resistive_force", &Soil::resistive_force, Need::optional, "values of resistive force theory (model rft)");
 }
 
 inline std::string contradiction(const Soil& soil) {
-  if (!soil.semi_empirical && !soil.granular) return "a soil needs 'semi_empirical', 'granular' or both";
+  if (!soil.semi_empirical && !soil.granular && !soil.resistive_force)
+    return "a soil needs 'semi_empirical', 'granular' or 'resistive_force'";
   if (soil.semi_empirical && soil.granular && soil.semi_empirical->gravity != soil.granular->gravity)
     return "gravity must be the same in 'semi_empirical' and in 'granular'";
   return "";

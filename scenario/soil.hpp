@@ -1,5 +1,5 @@
 // A soil: the values that the analytic model needs (pressure, sinkage, shear), its grains for the discrete element
-// model, or both.
+// model, its resistive force; at least one of them.
 //
 //   Soil soil{.name = "dry sand"};
 //   soil.semi_empirical = SemiEmpiricalSoil{.exponent = {1.1, 0}, .k_c = {990, 0}, .k_phi = {1.528e6, 0},
@@ -100,11 +100,19 @@ struct GranularSoil {
 /// Mean diameter of a soil's grains [m].
 inline double mean_diameter(const GranularSoil& soil) { return soil.radius_min + soil.radius_max; }
 
-/// A soil: what the analytic model needs, what the grains need, or both.
+/// A soil as resistive force theory knows it: resistive_force/response.hpp.
+struct ResistiveForceSoil {
+  Estimate xi_n;              ///< stress on an element per depth, over the theory's response [N/m^3], > 0
+  Estimate surface_friction;  ///< between soil and wheel [-], >= 0
+  std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "xi_n"
+};
+
+/// A soil, by what each model needs of it.
 struct Soil {
   std::string name;
   std::optional<SemiEmpiricalSoil> semi_empirical;
   std::optional<GranularSoil> granular;
+  std::optional<ResistiveForceSoil> resistive_force{};
   std::optional<double> moisture;                ///< water content by mass [-]
   std::string source{};                          ///< where the soil as a whole is described
   std::map<std::string, std::string> sources{};  ///< where single numbers beside the two sections come from
@@ -125,10 +133,11 @@ double gravity_of(const Values& soil) {
   return soil.gravity.value_or(standard_gravity);
 }
 inline double gravity_of(const Soil& soil) {
-  return soil.semi_empirical ? gravity_of(*soil.semi_empirical) : gravity_of(*soil.granular);
+  if (soil.semi_empirical) return gravity_of(*soil.semi_empirical);
+  return soil.granular ? gravity_of(*soil.granular) : standard_gravity;
 }
 
-/// n [-], which the units of some values hang on; 1 for a soil that has values for grains alone.
+/// n [-], which the units of some values hang on; 1 for a soil without semi-empirical values.
 inline double exponent_of(const Soil& soil) { return soil.semi_empirical ? soil.semi_empirical->exponent.value : 1.0; }
 
 }  // namespace soilbin

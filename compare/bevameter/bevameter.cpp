@@ -19,30 +19,6 @@ JanosiFit at_modulus(const ShearCurve& curve, double modulus) {
   return {.shear_max = ut / uu, .modulus = modulus, .rms = std::sqrt(left)};
 }
 
-struct Strength {
-  Estimate cohesion, friction_angle;
-};
-
-/// Weights 1/sigma^2: errors of strength grow with it. Their size is taken from the scatter.
-Strength strength_of(std::span<const ShearCurve> curves, const std::vector<JanosiFit>& fits) {
-  double s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-  for (std::size_t k = 0; k < curves.size(); ++k) {
-    const double x = curves[k].normal_stress, y = fits[k].shear_max, w = 1 / (x * x);
-    s += w, sx += w * x, sy += w * y, sxx += w * x * x, sxy += w * x * y;
-  }
-  const double determinant = s * sxx - sx * sx;
-  if (!(determinant > 1e-9 * s * sxx)) throw InputError("c and phi need shear tests at two normal stresses");
-  const double slope = (s * sxy - sx * sy) / determinant, cut = (sy - slope * sx) / s;
-  double left = 0;
-  for (std::size_t k = 0; k < curves.size(); ++k) {
-    const double miss = (fits[k].shear_max - cut - slope * curves[k].normal_stress) / curves[k].normal_stress;
-    left += miss * miss;
-  }
-  const double variance = curves.size() > 2 ? left / static_cast<double>(curves.size() - 2) : 0;
-  return {.cohesion = {cut, std::sqrt(variance * sxx / determinant)},
-          .friction_angle = {std::atan(slope), std::sqrt(variance * s / determinant) / (1 + slope * slope)}};
-}
-
 /// Root mean square of p - (k_c/b + k_phi) z^n over the mean p.
 double pressure_error(std::span<const PlateSet> plates, const BevameterFit& fit) {
   double squares = 0, sum = 0, count = 0;
@@ -57,6 +33,25 @@ double pressure_error(std::span<const PlateSet> plates, const BevameterFit& fit)
 }
 
 }  // namespace
+
+ShearStrength strength_of(std::span<const ShearTop> tops) {
+  double s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (std::size_t k = 0; k < tops.size(); ++k) {
+    const double x = tops[k].normal_stress, y = tops[k].shear_max, w = 1 / (x * x);
+    s += w, sx += w * x, sy += w * y, sxx += w * x * x, sxy += w * x * y;
+  }
+  const double determinant = s * sxx - sx * sx;
+  if (!(determinant > 1e-9 * s * sxx)) throw InputError("c and phi need shear tests at two normal stresses");
+  const double slope = (s * sxy - sx * sy) / determinant, cut = (sy - slope * sx) / s;
+  double left = 0;
+  for (std::size_t k = 0; k < tops.size(); ++k) {
+    const double miss = (tops[k].shear_max - cut - slope * tops[k].normal_stress) / tops[k].normal_stress;
+    left += miss * miss;
+  }
+  const double variance = tops.size() > 2 ? left / static_cast<double>(tops.size() - 2) : 0;
+  return {.cohesion = {cut, std::sqrt(variance * sxx / determinant)},
+          .friction_angle = {std::atan(slope), std::sqrt(variance * s / determinant) / (1 + slope * slope)}};
+}
 
 JanosiFit fit_janosi(const ShearCurve& curve) {
   const std::vector<double>& j = curve.displacement;
@@ -94,12 +89,14 @@ BevameterFit fit_bevameter(std::span<const PlateSet> plates, std::span<const She
     k_c.push_back(at.k_c), k_phi.push_back(at.k_phi);
   }
   fit.soil.k_c = mean_of(k_c), fit.soil.k_phi = mean_of(k_phi);
+  std::vector<ShearTop> tops;
   for (const ShearCurve& curve : shear) {
     fit.shear.push_back(fit_janosi(curve));
     modulus.push_back(fit.shear.back().modulus);
+    tops.push_back({curve.normal_stress, fit.shear.back().shear_max});
   }
   fit.soil.shear_modulus = mean_of(modulus);
-  const Strength strength = strength_of(shear, fit.shear);
+  const ShearStrength strength = strength_of(tops);
   fit.cohesion_as_fitted = strength.cohesion.value;
   fit.soil.cohesion = {std::max(0.0, strength.cohesion.value), strength.cohesion.std_error};
   fit.soil.friction_angle = strength.friction_angle;

@@ -33,6 +33,19 @@ struct JanosiFit {
 /// InputError for fewer than four points or displacements that are not above 0.
 JanosiFit fit_janosi(const ShearCurve& curve);
 
+/// What a soil bears in shear under a normal stress [Pa].
+struct ShearTop {
+  double normal_stress = 0.0, shear_max = 0.0;
+};
+
+struct ShearStrength {
+  Estimate cohesion, friction_angle;  ///< [Pa], [rad]
+};
+
+/// The line through tau_max over the normal stress, every test of equal relative weight (1/sigma^2: errors of strength
+/// grow with it); errors by the scatter about it, 0 for two tests. Throws InputError for tests of one normal stress.
+ShearStrength strength_of(std::span<const ShearTop> tops);
+
 struct BevameterFit {
   SemiEmpiricalSoil soil;         ///< bevameter_parameters of it alone
   double cohesion_as_fitted = 0;  ///< c before it was cut off at 0 [Pa]

@@ -9,6 +9,7 @@
 
 #include "bekker_wong/gsl.hpp"
 #include "compare/report/number_text.hpp"
+#include "resistive_force/response.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/soil_parameters.hpp"
 
@@ -267,6 +268,46 @@ std::size_t MeasuredPlatesFit::readings_aside() const {
   return count;
 }
 
+namespace {
+
+/// The pressures of a test over its sinkages, as one slope [N/m^3].
+double slope_of(const PlateCurve& curve) {
+  double moment = 0.0, square = 0.0;
+  for (std::size_t i = 0; i < curve.pressure.size(); ++i)
+    moment += curve.pressure[i] * curve.sinkage[i], square += curve.sinkage[i] * curve.sinkage[i];
+  return moment / square;
+}
+
+/// Fills xi_n: its scatter is that between tests of all sizes, since the theory makes no difference between them.
+void add_xi_n(const std::vector<PlateCurve>& curves, MeasuredPlatesFit& fit) {
+  const double n = static_cast<double>(curves.size()), response = resistive_force::plate_response();
+  double mean = 0.0, square = 0.0, lower = 0.0, upper = 0.0, missed = 0.0, pressure = 0.0;
+  for (const PlateCurve& curve : curves) {
+    const double xi = slope_of(curve) / response;
+    mean += xi / n, square += xi * xi / n;
+    PlateCurve low{curve.radius, {}, {}}, high = low;
+    const double half = *std::ranges::max_element(curve.pressure) / 2;
+    for (std::size_t i = 0; i < curve.pressure.size(); ++i) {
+      PlateCurve& to = curve.pressure[i] < half ? low : high;
+      to.sinkage.push_back(curve.sinkage[i]), to.pressure.push_back(curve.pressure[i]);
+    }
+    lower += (low.pressure.empty() ? xi * response : slope_of(low)) / response / n;
+    upper += slope_of(high) / response / n;
+  }
+  for (const PlateCurve& curve : curves)
+    for (std::size_t i = 0; i < curve.pressure.size(); ++i) {
+      const double off = curve.pressure[i] - response * mean * curve.sinkage[i];
+      missed += off * off, pressure += curve.pressure[i];
+    }
+  const double readings = static_cast<double>(fit.readings);
+  fit.xi_n_pressure_error = std::sqrt(missed / readings) / (pressure / readings);
+  fit.xi_n.between_tests = n > 1 ? std::sqrt(std::max(0.0, square - mean * mean) * n / (n - 1)) : 0.0;
+  fit.xi_n.between_pressures = std::abs(upper - lower) / 2;
+  fit.xi_n.estimate = {mean, std::hypot(fit.xi_n.between_tests, fit.xi_n.between_pressures)};
+}
+
+}  // namespace
+
 MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, const PressureWindow& window) {
   if (plates.empty()) throw InputError("no plate tests to fit");
   MeasuredPlatesFit fit;
@@ -290,6 +331,7 @@ MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, con
     *values[v] = value_of(all.*value, tests[v], std::abs(upper.*value - lower.*value) / 2, readings[v]);
   }
   add_misfit(curves, fit);
+  add_xi_n(curves, fit);
   for (const PlateValue* value : values)
     if (!std::isfinite(value->estimate.value) || !std::isfinite(value->estimate.std_error))
       throw InputError(

@@ -53,8 +53,12 @@ struct PlateTestApart {
 };
 
 struct MeasuredPlatesFit {
-  PlateValue exponent, k_c, k_phi;      ///< [-], [N/m^(n+1)], [N/m^(n+2)]; errors of the k at this n
-  double pressure_error = 0.0;          ///< root mean square of what Bekker's form misses, over the mean pressure
+  PlateValue exponent, k_c, k_phi;  ///< [-], [N/m^(n+1)], [N/m^(n+2)]; errors of the k at this n
+  double pressure_error = 0.0;      ///< root mean square of what Bekker's form misses, over the mean pressure
+  /// xi_n [N/m^3] of resistive force theory, whose plate bears plate_response() xi_n z whatever its size: mean over the
+  /// tests of the one that each is fitted best by, in least squares; and what it misses, as pressure_error.
+  PlateValue xi_n;
+  double xi_n_pressure_error = 0.0;
   double lowest = 0.0, highest = 0.0;   ///< pressures that were used [Pa]
   std::vector<double> radii;            ///< b of the plates, from the smallest [m]
   std::vector<double> plate_exponents;  ///< of each of these by itself

@@ -9,12 +9,10 @@
 #include <map>
 #include <numbers>
 #include <optional>
-#include <set>
 
-#include "compare/measured/csv.hpp"
+#include "compare/bevameter/test_rows.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/nearest_word.hpp"
 #include "scenario/quantity.hpp"
 
 namespace soilbin::compare {
@@ -183,45 +181,6 @@ PlateReading reading_of(const CsvRow& row, const std::vector<PlateColumn>& colum
   return reading;
 }
 
-/// The places of the columns that `only` names, with the values that they must have.
-std::vector<std::pair<std::size_t, std::string>> wanted(const CsvTable& table, const SourceText& csv,
-                                                        const std::vector<std::pair<std::string, std::string>>& only) {
-  std::vector<std::string> names;
-  for (const CsvCell& cell : table.header.cells) names.push_back(cell.text);
-  std::vector<std::pair<std::size_t, std::string>> all;
-  for (const auto& [name, value] : only) {
-    const auto found = std::ranges::find(names, name);
-    if (found == names.end())
-      throw InputError(fmt::format("--only: {} has no column '{}'{}\n  hint: its columns are {}", csv.file,
-                                   clipped(name), did_you_mean(name, names), listed(names)));
-    const auto column = static_cast<std::size_t>(found - names.begin());
-    std::vector<std::string> values;
-    for (const CsvRow& row : table.rows)
-      if (std::ranges::find(values, row.cells[column].text) == values.end()) values.push_back(row.cells[column].text);
-    if (std::ranges::find(values, value) == values.end())
-      throw InputError(fmt::format("--only: no row of {} has {} '{}'{}", csv.file, name, clipped(value),
-                                   did_you_mean(value, values)));
-    all.emplace_back(column, value);
-  }
-  return all;
-}
-
-/// A label that changes from row to row, such as a note or a measured number without a unit, would make a test of each
-/// reading.
-void need_labels_of_tests(const std::vector<const CsvRow*>& rows, const std::vector<PlateColumn>& columns,
-                          const CsvTable& table, const SourceText& csv) {
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (columns[i].holds != Holds::label) continue;
-    std::set<std::string> values;
-    for (const CsvRow* row : rows) values.insert(row->cells[i].text);
-    if (2 * values.size() > std::max<std::size_t>(rows.size(), 6))
-      csv.refuse(table.header.cells[i].offset,
-                 fmt::format("column '{}' has no unit, so it tells tests apart, and it has {} values in {} rows",
-                             clipped(columns[i].name), values.size(), rows.size()),
-                 "take it out of the file, or let its name end in its unit (time_s): then it is left aside");
-  }
-}
-
 /// What a plate test can be, far beyond what any was: numbers outside stand under a wrong unit.
 struct PlateLimits {
   std::initializer_list<Holds> columns;
@@ -302,12 +261,9 @@ std::vector<MeasuredPlate> read_plates(const SourceText& csv,
   const CsvTable table = parse_csv(csv, most_plate_rows);
   const std::vector<PlateColumn> columns = columns_of(table);
   need_columns(columns, table, csv, diameter.has_value());
-  const auto kept = wanted(table, csv, only);
-  std::vector<const CsvRow*> rows;
-  for (const CsvRow& row : table.rows)
-    if (std::ranges::all_of(kept, [&](const auto& want) { return row.cells[want.first].text == want.second; }))
-      rows.push_back(&row);
-  need_labels_of_tests(rows, columns, table, csv);
+  const std::vector<const CsvRow*> rows = rows_of(table, csv, only);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].holds == Holds::label) need_label_of_tests(rows, i, table, csv);
   need_possible_numbers(rows, columns, table, csv);
   need_forces_that_agree(rows, columns, table, csv, diameter);
   std::vector<MeasuredPlate> plates;

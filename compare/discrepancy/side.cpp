@@ -26,7 +26,8 @@ void doubt_budget(SidePoint& point) {
 std::vector<ModelChoice> analytic_choices(const Study& study) {
   std::vector<ModelChoice> choices = {{ModelKind::bekker_wong, {}, "bekker_wong"}};
   for (const ModelChoice& choice : study.models)
-    if (choice.model == ModelKind::bekker_wong && !choice.effects.empty()) choices.push_back(choice);
+    if (choice.model == ModelKind::rft || (choice.model == ModelKind::bekker_wong && !choice.effects.empty()))
+      choices.push_back(choice);
   return choices;
 }
 
@@ -35,7 +36,7 @@ bool add_choice(std::vector<ModelChoice>& choices, std::vector<EffectChoice> eff
     return std::tie(a.id, a.form, a.parameters) == std::tie(b.id, b.form, b.parameters);
   };
   const auto same = [&](const ModelChoice& other) {
-    return std::ranges::is_permutation(other.effects, effects, same_effect);
+    return other.model == ModelKind::bekker_wong && std::ranges::is_permutation(other.effects, effects, same_effect);
   };
   if (std::ranges::any_of(choices, same)) return false;
   choices.push_back({ModelKind::bekker_wong, std::move(effects), ""});

@@ -66,7 +66,8 @@ struct Side {
 /// A model's answers as a side. Of grains, scatter is the answers' standard error.
 Side side_of(const ModelAnswers& answers);
 
-/// The analytic models that a comparison sets side by side: that without effects, then the study's own with effects.
+/// The quick models that a comparison sets side by side: the analytic wheel without effects, then the study's own with
+/// effects, and resistive force theory where it is asked.
 std::vector<ModelChoice> analytic_choices(const Study& study);
 
 /// Adds the analytic model with these effects, unless one of the choices has them already; says whether it did.

@@ -33,6 +33,8 @@ enum class DoubtKind {
   inflation_ignored_by_grains, carcass_ignored, carcass_ignored_by_grains, speed_ignored, bin_ignored, no_yaw,
   assumed_errors_none, assumed_errors_ignored_by_grains, condition_ignored, condition_ignored_by_grains,
   effect_without_condition, effect_without_pass, bin_depth_taken, soil_weight_ignored, rigid_already, smooth_already,
+  // resistive force theory
+  ignored_by_rft, rft_values_estimated, rft_without_cohesion,
   // presumptions
   presumed, density_assumed, exact_carcass, taken_as_flexible, taken_with_lugs, known_by_size,
   // grains
@@ -51,6 +53,8 @@ enum class DoubtKind {
   // measured plates
   plate_test_apart, sensor_stuck, many_spikes, one_plate_size, negative_modulus, unusual_plate_exponent,
   scattered_plate_tests, no_repeated_plates, halves_not_compared, form_misses,
+  // measured shear tests
+  one_normal_stress, shear_falls_again, few_shear_tests,
   // drives and pages
   shear_gives_back, grains_left_out,
 };

@@ -97,6 +97,10 @@ constexpr DoubtSentence sentences[] = {
       "soil"),
     D(rigid_already, "--rigid is ignored: the tire declares no inflation pressure and is rigid"),
     D(smooth_already, "--no-lugs is ignored: the tire declares no lugs and is smooth"),
+    D(ignored_by_rft, "rft ignores {}"),
+    D(rft_values_estimated, "rft: xi_n = {:.3g} ± {:.2g} MN/m^3 and surface friction {:.2g} ± {:.1g} are estimated from "
+      "the soil's density and friction angle: declare 'resistive_force', from plates"),
+    D(rft_without_cohesion, "rft has no cohesion, and this soil has {:.3g} kPa: it sinks too deep and pulls too little"),
     D(presumed, "{}"),
     D(density_assumed, "the soil declares no density: {:g} kg/m^3 is assumed, and the answers depend on it"),
     D(exact_carcass, "effect {0} reads the carcass pressure, and {1:.4g} kPa count as exact: what that is off is "
@@ -195,6 +199,11 @@ constexpr DoubtSentence sentences[] = {
       "errors hold nothing of a soil that is no power law"),
     D(form_misses, "Bekker's form misses the pressures by {:.3g} %: fit over the pressures that your wheel makes "
       "(--pressure)"),
+    D(one_normal_stress, "one normal stress ({:.3g} kPa) does not part c from phi: phi is given with c = 0, and is good "
+      "for about this stress"),
+    D(shear_falls_again, "{} of {:#test} fall again behind a peak: Janosi's curve keeps tau_max for ever; a wheel that "
+      "slips much meets the residual strength (effect shear_hump)"),
+    D(few_shear_tests, "{:#test}: c and phi have no error, which takes three"),
     D(shear_gives_back, "the soil's shear gives back {:.3g} J, {:.2g} % of the work that presses the soil: where the "
       "tread slides forward again its stress goes back as it came, at the pressure that acts by then. No soil does "
       "that: what brakes the wheel is too little by about this share"),

@@ -14,9 +14,25 @@
 #include "compare/doubts/row_doubts.hpp"
 #include "compare/doubts/unused_inputs.hpp"
 #include "compare/sweep/varying.hpp"
+#include "resistive_force/model.hpp"
 #include "scenario/nearest_word.hpp"
 
 namespace soilbin::compare {
+
+Doubts resistive_force_doubts(const Soil& soil) {
+  Doubts all;
+  if (!soil.resistive_force && !soil.semi_empirical) return all;
+  const ResistiveForceSoil values = resistive_force::resistive_force_of(soil);
+  const auto& [xi_n, friction] = std::tie(values.xi_n, values.surface_friction);
+  if (!soil.resistive_force)
+    all.push_back({DoubtKind::rft_values_estimated,
+                   {xi_n.value / 1e6, xi_n.std_error / 1e6, friction.value, friction.std_error}});
+  constexpr double little_cohesion = 1000.0;  // [Pa]; a dry sand's
+  if (soil.semi_empirical && soil.semi_empirical->cohesion.value > little_cohesion)
+    all.push_back({DoubtKind::rft_without_cohesion, {soil.semi_empirical->cohesion.value / 1000}});
+  return all;
+}
+
 namespace {
 
 /// Of the radius. The base model has no balance beyond 0.9; its stresses are tested up to about this.
@@ -229,6 +245,7 @@ Doubts doubts_but_unused_inputs(const Case& question, const std::vector<ModelAns
   if (open || asks(question.study, ModelKind::bekker_wong) || !scenario.soil.semi_empirical)
     append(all, doubts(scenario.soil));
   append(all, doubts(scenario.tire, scenario.soil));
+  if (asks(question.study, ModelKind::rft)) append(all, resistive_force_doubts(scenario.soil));
   append(all, doubts_of_speeds(question));
   append(all, doubts_of_answers(scenario, study, open));
   if (open || asks(question.study, ModelKind::dem))

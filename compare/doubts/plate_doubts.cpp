@@ -38,4 +38,14 @@ Doubts doubts(const MeasuredPlatesFit& fit) {
   return all;
 }
 
+Doubts doubts(const MeasuredShearFit& fit, std::span<const MeasuredShear> tests) {
+  Doubts all;
+  if (fit.one_stress) all.push_back({DoubtKind::one_normal_stress, {tests.front().curve.normal_stress / 1e3}});
+  std::size_t humps = 0;
+  for (const ShearTestFit& one : fit.tests) humps += one.residual ? 1 : 0;
+  if (humps > 0) all.push_back({DoubtKind::shear_falls_again, {humps, tests.size()}});
+  if (fit.tests.size() < 3 && !fit.one_stress) all.push_back({DoubtKind::few_shear_tests, {fit.tests.size()}});
+  return all;
+}
+
 }  // namespace soilbin::compare

@@ -120,11 +120,24 @@ bool hears(const ModelChoice& choice, const Declared& declared) {
   });
 }
 
-/// That a thing which is given changes nothing of the analytic models or, where these hear or aren't asked, of grains.
+/// What resistive force theory does not know of, in words; "" for what it reads.
+std::string unknown_to_rft(const std::string& key) {
+  if (key == "pass") return "the pass: it has no rut";
+  if (key == "inflation_pressure") return "the inflation pressure: its wheel is rigid";
+  if (key == "carcass_pressure") return "the carcass pressure: its wheel is rigid";
+  if (key == "speed" || key == "moisture" || key == "position" || key == "run" || key == "bin") return "'" + key + "'";
+  return "";
+}
+
+/// That a thing which is given changes nothing of the analytic models or, where these hear or aren't asked, of grains
+/// or of resistive force theory.
 Doubts doubts_of_unused(const std::vector<ModelChoice>& models, const Declared& declared) {
-  const auto is_grains = [](const ModelChoice& m) { return m.model == ModelKind::dem; };
-  const bool grains = std::any_of(models.begin(), models.end(), is_grains);
-  const bool wheel = !std::all_of(models.begin(), models.end(), is_grains);
+  const auto asked = [&](ModelKind kind) {
+    return std::ranges::any_of(models, [&](auto& m) { return m.model == kind; });
+  };
+  const bool grains = asked(ModelKind::dem), wheel = asked(ModelKind::bekker_wong);
+  const std::string unknown = unknown_to_rft(declared.key);
+  if (asked(ModelKind::rft) && !unknown.empty() && !wheel) return {Doubt{DoubtKind::ignored_by_rft, {unknown}}};
   if (wheel && std::none_of(models.begin(), models.end(), [&](const ModelChoice& m) { return hears(m, declared); }))
     return {Doubt{*declared.of_wheel, {declared.key, hearing_effects(declared.key)}}};
   if (!grains || !declared.of_grains) return {};

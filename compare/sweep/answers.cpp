@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bekker_wong/model.hpp"
+#include "resistive_force/model.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -11,6 +12,8 @@ std::unique_ptr<const Model> make_model(ModelKind kind) {
   switch (kind) {
     case ModelKind::bekker_wong:
       return std::make_unique<const bekker_wong::BekkerWong>();
+    case ModelKind::rft:
+      return std::make_unique<const resistive_force::ResistiveForce>();
     case ModelKind::dem:
       break;
   }

@@ -218,7 +218,12 @@ std::string errors_in_words(const Scenario& asked) {
 }
 
 std::string errors_in_words(const Case& question) {
-  return errors_in_words(seen_by(question.study.models.front(), question.scenario));
+  const auto analytic = std::ranges::find(question.study.models, ModelKind::bekker_wong, &ModelChoice::model);
+  const bool asks_rft = asks(question.study, ModelKind::rft);
+  if (analytic == question.study.models.end())
+    return asks_rft ? "± is one standard error from the standard deviations of xi_n and surface friction." : "";
+  return errors_in_words(seen_by(*analytic, question.scenario)) +
+         (asks_rft ? " Resistive force theory: from those of xi_n and surface friction." : "");
 }
 
 std::string in_words(const OperatingCondition& at) {

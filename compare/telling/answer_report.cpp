@@ -250,7 +250,8 @@ Report report_on(const Case& question, const std::vector<ModelAnswers>& study) {
 
 Report report_on(const Case& question, const StudyResults& results, const std::string& density) {
   Report report{question.study.name, question.description, question.study.name + ": " + asked_in_words(question)};
-  if (asks(question.study, ModelKind::bekker_wong))  // grains say beside their answer where their errors come from
+  if (asks(question.study, ModelKind::bekker_wong) ||
+      asks(question.study, ModelKind::rft))  // grains say beside their answer where their errors come from
     report.heading += "\n" + errors_in_words(question);
   if (results.step) report.heading += "\n" + step_in_words(*results.step);
   report.parts = study_parts(results.study);

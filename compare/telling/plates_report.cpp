@@ -9,6 +9,7 @@
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/telling/reports.hpp"
+#include "resistive_force/response.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/quantity.hpp"
 #include "scenario/soil_parameters.hpp"
@@ -102,6 +103,16 @@ std::string yaml_lines(const MeasuredPlatesFit& fit, const std::string& source) 
   return text;
 }
 
+/// The section of a soil file that the model rft reads.
+std::string rft_lines(const MeasuredPlatesFit& fit, const std::string& source) {
+  const Estimate& xi_n = fit.xi_n.estimate;
+  return fmt::format(
+      "For the model rft, in a soil file:\n\n"
+      "resistive_force:\n  xi_n: {{value: {} kN/m^3, sd: {} kN/m^3, source: {}}}\n"
+      "  surface_friction: {{value: 0.5, sd: 0.1, source: assumed}}\n",
+      number(xi_n.value / 1e3), number(xi_n.std_error / 1e3), yaml_scalar(source));
+}
+
 /// "lines 3, 7 to 9, 12, ..."
 std::string line_list(const std::vector<int>& lines) {
   constexpr std::size_t most = 6;
@@ -180,6 +191,10 @@ Json plates_json(const MeasuredPlatesFit& fit, std::size_t tests) {
     document[p.name]["between_readings"] = value.between_readings;
   }
   document["pressure_error"] = fit.pressure_error;
+  document["xi_n"] = estimate_json(fit.xi_n.estimate);
+  document["xi_n"]["between_tests"] = fit.xi_n.between_tests;
+  document["xi_n"]["between_pressures"] = fit.xi_n.between_pressures;
+  document["xi_n"]["pressure_error"] = fit.xi_n_pressure_error;
   document["test_scatter"] = fit.test_scatter;
   document["lowest_pressure"] = fit.lowest, document["highest_pressure"] = fit.highest;
   document["plates"] = Json::array();
@@ -230,6 +245,8 @@ Table values_table(const MeasuredPlatesFit& fit) {
     table.add({heading(symbol, p.unit), number(value.estimate, p.per_si), number(value.between_tests * p.per_si),
                number(value.between_pressures * p.per_si), number(value.between_readings * p.per_si)});
   }
+  table.add({"xi_n [kN/m^3]", number(fit.xi_n.estimate, 1e-3), number(fit.xi_n.between_tests / 1e3),
+             number(fit.xi_n.between_pressures / 1e3), "-"});
   return table;
 }
 
@@ -242,14 +259,18 @@ Table plates_table(const MeasuredPlatesFit& fit) {
 }
 
 std::vector<std::string> words_on_errors(const MeasuredPlatesFit& fit) {
-  return {"± is one standard error: the three columns beside it, squared and added.",
-          fit.one_size()
-              ? fmt::format(
-                    "k stands for k_c/b + k_phi at b = {:g} mm: one size of plate does not part the two. It is good "
-                    "for a wheel or plate of about this b.",
-                    1000 * fit.radii.front())
-              : std::string("Those of k_c and k_phi hold at this n."),
-          "A file takes the values as independent, which makes pressures less sure than these tests are."};
+  return {
+      "± is one standard error: the three columns beside it, squared and added.",
+      fit.one_size()
+          ? fmt::format(
+                "k stands for k_c/b + k_phi at b = {:g} mm: one size of plate does not part the two. It is good "
+                "for a wheel or plate of about this b.",
+                1000 * fit.radii.front())
+          : std::string("Those of k_c and k_phi hold at this n."),
+      "A file takes the values as independent, which makes pressures less sure than these tests are.",
+      fmt::format("xi_n is the model rft's: a plate of any size bears {:.3f} xi_n z. That misses the pressures by {}, "
+                  "Bekker's form by {} (root mean square, of the mean pressure).",
+                  resistive_force::plate_response(), percent(fit.xi_n_pressure_error), percent(fit.pressure_error))};
 }
 
 }  // namespace
@@ -264,16 +285,14 @@ Report report_on(const MeasuredPlatesFit& fit, std::span<const MeasuredPlate> pl
   report.sheet = drawn_once([&fit, plates, file] { return plates_sheet(plates, fit, file); });
   report.add("Pressure over sinkage", Figure{report.sheet, "Points: readings; lines: Bekker's form."});
   report.add("Plate by plate", plates_table(fit));
-  report.add(
-      Sentences({fmt::format("b is a round plate's radius, a strip's width. Bekker's form misses the pressures by "
-                             "{} (root mean square, of the mean pressure).",
-                             percent(fit.pressure_error))}));
+  report.add(Sentences({"b is a round plate's radius, a strip's width."}));
   std::vector<std::string> aside = apart_in_words(fit), of_readings = aside_in_words(fit);
   aside.insert(aside.end(), of_readings.begin(), of_readings.end());
   if (fit.kept && !aside.empty())
     aside.push_back(fmt::format("With everything kept: n = {}, k_c = {} kN/m^(n+1), k_phi = {} kN/m^(n+2).",
                                 number((*fit.kept)[0]), number((*fit.kept)[1] / 1e3), number((*fit.kept)[2] / 1e3)));
   if (!aside.empty()) report.add("Set aside", Sentences(aside));
+  report.add("For the model rft", Code{rft_lines(fit, "soilbin plates " + file)});
   report.add("For a soil file", Code{yaml_lines(fit, "soilbin plates " + file)});
   report.data = [&fit, tests = plates.size()] { return plates_json(fit, tests); };
   return report;

@@ -165,7 +165,7 @@ void MovingPatch::note_disturbance(const Simulation& simulation, double from, do
   const Grains& grains = simulation.state().grains;
   for (std::size_t row = 0; row < grains.count(); ++row) {
     const Vec3 settled = home(grains.id[row]);
-    if (settled.x < from || settled.x >= to) continue;
+    if (grains.motion[row].held() || settled.x < from || settled.x >= to) continue;
     sum += length(grains.motion[row].position - settled), count += 1;
   }
   if (count > 0) disturbed_ = std::max(disturbed_, sum / count);

@@ -11,7 +11,8 @@
 // that the wheel has left, where they were when the patch went on. So neither end is a wall, and the soil meets its own
 // continuation there. When the axle has gone on by a slab, the slab held ahead is let go, with what its contacts
 // remember of the tile, and the slab beyond it comes in and is held; behind, the next slab is held and the one held so
-// far leaves. What is let go is in equilibrium where the wheel has not moved the soil yet: `disturbed()` tells.
+// far leaves. What the tile itself holds, such as the grains on its floor, stays held. What is let go is in equilibrium
+// where the wheel has not moved the soil yet: `disturbed()` tells.
 //
 // Compare the moving patches of Chrono (Tasora et al. 2016; Projectchrono reference manual, "Chrono::Vehicle, granular
 // terrain"), which take away and add loose grains; here nothing falls into place again.
@@ -31,7 +32,7 @@ namespace soilbin::dem {
 /// A grain of a tile, 0 <= x < length.
 struct TileGrain {
   Vec3 position;
-  double radius = 0, mass = 0;  ///< [m], [kg]
+  double radius = 0, mass = 0;  ///< [m], [kg]; held_mass where it is held in the tile too
   std::int32_t material = 0;
 };
 
@@ -92,9 +93,9 @@ class MovingPatch {
   /// The undisturbed surface, seen from above, anywhere along the track.
   SurfaceHeight undisturbed(const Footprint& over, double spacing) const;
 
-  /// For StagedRun::keep; the tile only where `with_tile`.
+  /// For StagedRun::keep.
   template <class Notes>
-  void state(Notes& notes, bool with_tile);
+  void state(Notes& notes);
 
  private:
   double front(std::int64_t advances) const {
@@ -131,9 +132,8 @@ void parts(Notes& notes, TileOnSurface& c) {
 }
 
 template <class Notes>
-void MovingPatch::state(Notes& notes, bool with_tile) {
-  notes(advances_, thrown_, disturbed_);
-  if (with_tile) notes(tile_.length, tile_.grains, tile_.contacts, tile_.on_surfaces);
+void MovingPatch::state(Notes& notes) {
+  notes(advances_, thrown_, disturbed_, tile_.length, tile_.grains, tile_.contacts, tile_.on_surfaces);
 }
 
 }  // namespace soilbin::dem

@@ -108,7 +108,8 @@ class WheelInBinOf {
 
   /// The stages; what is done between them goes through StagedRun::once.
   Run& run() { return run_; }
-  /// Turns gravity to the incline and lets the bed come to terms with it.
+  /// Turns gravity to the incline and lets the bed come to terms with it. For a moving patch it first holds the grains
+  /// that lie on the floor.
   void tilt();
   /// Measures the surface and puts the wheel over it.
   void put_wheel();
@@ -160,10 +161,11 @@ class WheelInBinOf {
     notes(open);
     if (!open) return;
     if (!patch_) patch_.emplace(tile_of(bed_.setup, bed_.state), patch_size());
-    patch_->state(notes, tilting() > 0);  // else the tile is the bed as it settled
+    patch_->state(notes);
   }
 
  private:
+  void hold_floor();
   void put_body();
   void show();
   PatchSize patch_size() const { return {rig_.behind, rig_.ahead, slab_of_patch(bed_.recipe)}; }
@@ -193,8 +195,19 @@ std::int64_t WheelInBinOf<Run>::steps_of(double time) const {
   return std::llround(time / simulation().setup().numerics.dt);
 }
 
+/// No end walls hold a bed that repeats itself, and on a floor that is smooth beside the bed it would slide downhill as
+/// one block.
+template <class Run>
+void WheelInBinOf<Run>::hold_floor() {
+  if (!rig_.patch) return;
+  if constexpr (std::is_same_v<Run, StagedRun>)
+    run_.once(
+        [&] { simulation().hold_grains([](const GrainNow& grain) { return grain.position.z <= grain.radius; }); });
+}
+
 template <class Run>
 void WheelInBinOf<Run>::tilt() {
+  hold_floor();
   const std::int64_t steps = steps_of(tilting());
   run_.steps("tilting", steps, [&](std::int64_t k) {
     const double share = std::min(1.0, 1.5 * static_cast<double>(k + 1) / static_cast<double>(steps));

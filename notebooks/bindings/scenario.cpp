@@ -74,7 +74,10 @@ void bind_tire_and_soil(py::module_& module) {
   bind_words<GrainShape>(module, "GrainShape", "What a grain is made of: a sphere, or several joined for good.");
   py::class_<GranularSoil> granular(module, "GranularSoil", "A soil as grains, radii uniform between two bounds.");
   described(granular);
-  py::class_<Soil> soil(module, "Soil", "What the analytic model needs, what the grains need, or both.");
+  py::class_<ResistiveForceSoil> resistive_force(module, "ResistiveForceSoil",
+                                                 "A soil as resistive force theory knows it (model rft).");
+  described(resistive_force);
+  py::class_<Soil> soil(module, "Soil", "A soil, by what each model needs of it.");
   described(soil);
   py::class_<Bin> bin(module, "Bin", "Inner measures of the soil bin; only some effects ask for them.");
   described(bin);

@@ -8,11 +8,12 @@ FLOORS = {
     "scenario": {"scenario"},
     "bekker_wong": {"scenario", "bekker_wong"},
     "dem": {"scenario", "dem"},
-    "compare": {"scenario", "bekker_wong", "dem", "compare"},
-    "cli": {"scenario", "bekker_wong", "dem", "compare", "cli"},
-    "notebooks": {"scenario", "bekker_wong", "dem", "compare", "notebooks"},
-    "tests": {"scenario", "bekker_wong", "dem", "compare", "cli", "tests"},
-    "bench": {"scenario", "bekker_wong", "dem", "compare", "bench"},
+    "resistive_force": {"scenario", "dem", "resistive_force"},
+    "compare": {"scenario", "bekker_wong", "dem", "resistive_force", "compare"},
+    "cli": {"scenario", "bekker_wong", "dem", "resistive_force", "compare", "cli"},
+    "notebooks": {"scenario", "bekker_wong", "dem", "resistive_force", "compare", "notebooks"},
+    "tests": {"scenario", "bekker_wong", "dem", "resistive_force", "compare", "cli", "tests"},
+    "bench": {"scenario", "bekker_wong", "dem", "resistive_force", "compare", "bench"},
 }
 
 # Where a library's headers may be included: folders (ending in '/') and single files. A single file beside a folder's
@@ -22,9 +23,9 @@ LIBRARIES = {
     "yaml-cpp/": ["scenario/"],
     "Eigen/": ["scenario/", "bekker_wong/", "dem/surface/mass_properties.cpp", "compare/", "tests/", "bench/"],
     "nlohmann/": ["scenario/", "compare/", "cli/", "tests/", "bench/"],
-    "fmt/": ["scenario/", "bekker_wong/", "dem/", "compare/", "cli/", "notebooks/", "tests/", "bench/"],
-    # mass properties: Gauss's rule; the server: Beast and Asio
-    "boost/": ["dem/surface/mass_properties.cpp", "compare/", "cli/serve/server.cpp", "tests/"],
+    "fmt/": ["scenario/", "bekker_wong/", "dem/", "resistive_force/", "compare/", "cli/", "notebooks/", "tests/", "bench/"],
+    # mass properties: Gauss's rule; resistive force: a root in a bracket; the server: Beast and Asio
+    "boost/": ["dem/surface/mass_properties.cpp", "resistive_force/wheel.cpp", "compare/", "cli/serve/server.cpp", "tests/"],
     "CLI/": ["cli/"],
     "librsvg/": ["cli/picture.cpp"],  # the wrapper: drawings as PNG and PDF
     "cairo": ["cli/picture.cpp"],

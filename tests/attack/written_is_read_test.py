@@ -69,8 +69,9 @@ class WhatIsWritten(Attack):
                 self.strict(self.answer("plates", name, "--json"))
                 out = self.answer("plates", name)
                 lines = out.split("For campaign.yaml or a soil file:\n\n")[1]
+                rft = out.split("For the model rft, in a soil file:\n\n")[1].split("\n\n")[0]
                 soil = self.here / "soil.yaml"
-                soil.write_text(f"format: soilbin-soil/1\nname: of plates\nsemi_empirical:\n{lines}{REST_OF_A_SOIL}")
+                soil.write_text(f"format: soilbin-soil/1\nname: of plates\nsemi_empirical:\n{lines}{REST_OF_A_SOIL}{rft}\n")
                 self.answer("check", soil)
                 self.answer(*WHEEL, "--soil", soil, "--load", "50N", "--slip", "20%")
 

@@ -212,14 +212,22 @@ Estimate over(const std::vector<WheelRun>& runs, const Read& read) {
   return {mean, std::sqrt(std::max(squares / n - mean * mean, 0.0) / (n - 1))};
 }
 
-TEST(SlowMovingPatch, PullsTurnsAndSinksAsOnAFixedBed) {
+/// A bed whose grains on the floor are held, as a patch has them: these beds are three grains deep, and the wheel feels
+/// how rough the floor is.
+SettledBed with_rough_floor(SettledBed bed) {
+  Simulation simulation(bed.setup, bed.state);
+  EXPECT_GT(simulation.hold_grains([](const GrainNow& grain) { return grain.position.z <= grain.radius; }), 50U);
+  bed.state = simulation.state();
+  return bed;
+}
+
+/// The same run on long beds with end walls and on moving patches, several packings of each.
+void expect_same_on_both(const OperatingCondition& at) {
   std::vector<WheelRun> fixed, moving;
-  OperatingCondition at = uphill();
-  at.longitudinal_incline = 0;
   for (const std::uint64_t packing : {1, 2, 3, 4}) {
     BedRecipe recipe = test::small_recipe({1.18, 0.16, 0.06});
     recipe.packing = packing;
-    const SettledBed bed = settle_bed(recipe, with_threads(1));
+    const SettledBed bed = with_rough_floor(settle_bed(recipe, with_threads(1)));
     Rig rig = patch_rig();
     rig.patch = false, rig.travel = 0.8, rig.behind = 0.14, rig.ahead = 0.24;
     const Tire tire = small_wheel();
@@ -240,6 +248,47 @@ TEST(SlowMovingPatch, PullsTurnsAndSinksAsOnAFixedBed) {
   same("pull", [](const WheelRun& run) { return run.result.drawbar_pull.value; });
   same("torque", [](const WheelRun& run) { return run.result.torque.value; });
   same("sinkage", [](const WheelRun& run) { return run.result.sinkage.value; });
+  same("lateral force", [](const WheelRun& run) { return run.result.lateral_force.value; });
+}
+
+TEST(SlowMovingPatch, PullsTurnsAndSinksAsOnAFixedBed) {
+  OperatingCondition at = uphill();
+  at.longitudinal_incline = 0;
+  expect_same_on_both(at);
+}
+
+TEST(SlowMovingPatch, PullsTurnsSinksAndIsPushedAsideAsOnAFixedBedOnASlope) {
+  OperatingCondition at = uphill();
+  at.longitudinal_incline = 15 * degree, at.transverse_incline = 8 * degree, at.yaw = 8 * degree;
+  expect_same_on_both(at);
+}
+
+TEST(SlowMovingPatch, OnASlopeSlipperyGrainsDoNotSlideOffTheirFloor) {
+  BedRecipe recipe = tile_recipe();
+  recipe.size = {0.3, 0.4, 0.06};
+  recipe.soil.grain_grain.sliding_friction = 0.15, recipe.settling_friction = 0;  // of the floor too: 8.5 deg
+  const SettledBed bed = settle_bed(recipe, with_threads(1));
+  const Tire tire = small_wheel();
+  const auto speed_after = [&](double incline, bool patch) {
+    OperatingCondition at = uphill();
+    at.longitudinal_incline = incline;
+    Rig rig = patch_rig();
+    rig.patch = patch;
+    const WheelOnBed on{bed, tire, recipe.soil.grain_tire, rig};
+    const WorkOptions how = with_threads(1);
+    const Checkpoints kept{};
+    WheelInBin bin(on, at, [&] { return staged_run(on, how, kept, ""); });
+    bin.tilt(), bin.open_patch();
+    if (patch) bin.simulation().run(400);
+    Vec3 sum;
+    for (const GrainNow& grain : bin.simulation().grains()) sum += grain.velocity;
+    return std::abs(sum.x) / static_cast<double>(bin.simulation().state().grains.count());
+  };
+  // The side walls carry another 1 deg or so. Sliding for the last 0.03 s of the tilt alone ends at about
+  // g (sin 14 - 0.17 cos 14) 0.03 s = 0.02 m/s.
+  EXPECT_GT(speed_after(14 * degree, false), 0.01) << "a tile whose floor is smooth";
+  EXPECT_LT(speed_after(14 * degree, true), 0.001);
+  EXPECT_LT(speed_after(-14 * degree, true), 0.001);
 }
 
 TEST(SlowMovingPatch, GoesOnUntilThePullIsKnown) {

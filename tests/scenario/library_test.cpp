@@ -119,7 +119,7 @@ TEST(Library, TheExampleOfTheDocumentationIsACase) {
   const std::string example = page.substr(begin, page.find("```", begin) - begin);
   const Case c =
       parse_case(make_source_text(example, "docs/reference/case-files.md"), Library(), test::FakeVocabulary());
-  EXPECT_EQ(c.study.models.size(), 3u);
+  EXPECT_EQ(c.study.models.size(), 4u);
   EXPECT_EQ(c.study.conditions.size(), 14u);
 }
 

@@ -1,0 +1,214 @@
+#include "compare/bevameter/measured_shear.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "compare/bevameter/test_rows.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/mean_value.hpp"
+#include "scenario/quantity.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+enum class ShearHolds { displacement, shear_stress, normal_stress, label, nothing };
+
+struct ShearColumn {
+  ShearHolds holds = ShearHolds::nothing;
+  std::string unit{}, name{};
+};
+
+/// What a shear test can be, far beyond what any was: numbers outside stand under a wrong unit [SI].
+struct ShearLimits {
+  ShearHolds holds;
+  const char* what;
+  const char* dimension;
+  double least, most;  ///< of the largest number in the file
+};
+constexpr std::array<ShearLimits, 3> shear_limits = {{
+    {ShearHolds::displacement, "displacement", "m", 0.2e-3, 2.0},
+    {ShearHolds::shear_stress, "shear_stress", "Pa", 50.0, 5e6},
+    {ShearHolds::normal_stress, "normal_stress", "Pa", 50.0, 5e6},
+}};
+
+constexpr const char* shear_columns_hint =
+    "columns: displacement_mm, shear_stress_kPa, normal_stress_kPa, in any unit, and those without a unit that tell "
+    "tests apart, such as test";
+
+ShearColumn shear_column(const std::string& name) {
+  const std::size_t bar = name.rfind('_');
+  if (bar == std::string::npos || bar + 1 == name.size()) return {ShearHolds::label, "", name};
+  ShearColumn column{ShearHolds::nothing, name.substr(bar + 1), name};
+  try {
+    const Unit unit = parse_unit(column.unit);
+    for (const ShearLimits& one : shear_limits)
+      if (name.substr(0, bar) == one.what && same_dimension(unit.dimension, parse_unit(one.dimension).dimension))
+        column.holds = one.holds;
+  } catch (const InputError&) {
+    return {ShearHolds::label, "", name};
+  }
+  return column;
+}
+
+/// The place of the column that holds this; none where there is no such column. Refuses two.
+std::optional<std::size_t> place_of(ShearHolds what, const std::vector<ShearColumn>& columns, const CsvTable& table,
+                                    const SourceText& csv) {
+  std::optional<std::size_t> place;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].holds != what) continue;
+    if (place)
+      csv.refuse(table.header.cells[i].offset,
+                 fmt::format("a second column holds what '{}' does", columns[*place].name), shear_columns_hint);
+    place = i;
+  }
+  return place;
+}
+
+double shear_value(const CsvCell& cell, const ShearColumn& column, const SourceText& csv) {
+  return cell.text.empty() ? 0.0 : number_in(cell, column.name, column.unit, csv) / per_unit(column.unit);
+}
+
+void need_possible_sizes(const std::vector<const CsvRow*>& rows, const std::vector<ShearColumn>& columns,
+                         const CsvTable& table, const SourceText& csv) {
+  for (const ShearLimits& limits : shear_limits)
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (columns[i].holds != limits.holds) continue;
+      double largest = 0.0;
+      for (const CsvRow* row : rows) largest = std::max(largest, shear_value(row->cells[i], columns[i], csv));
+      if (largest >= limits.least && largest <= limits.most) continue;
+      const double per = per_unit(columns[i].unit);
+      csv.refuse(
+          table.header.cells[i].offset,
+          fmt::format("column '{}': the largest number is {:.4g} {}; shear tests have {:g} to {:g} {}", columns[i].name,
+                      largest * per, columns[i].unit, limits.least * per, limits.most * per, columns[i].unit),
+          "the end of a column's name is the unit of its numbers; stresses and displacements are above 0");
+    }
+}
+
+}  // namespace
+
+std::vector<MeasuredShear> read_shear(const SourceText& csv,
+                                      const std::vector<std::pair<std::string, std::string>>& only,
+                                      std::optional<double> normal_stress) {
+  constexpr std::size_t most_rows = 1'000'000;
+  const CsvTable table = parse_csv(csv, most_rows);
+  std::vector<ShearColumn> columns;
+  for (const CsvCell& header : table.header.cells) columns.push_back(shear_column(header.text));
+  const auto displacement = place_of(ShearHolds::displacement, columns, table, csv),
+             shear = place_of(ShearHolds::shear_stress, columns, table, csv),
+             normal = place_of(ShearHolds::normal_stress, columns, table, csv);
+  const std::size_t at = table.header.cells.front().offset;
+  if (!displacement) csv.refuse(at, "no column holds the displacement", shear_columns_hint);
+  if (!shear) csv.refuse(at, "no column holds the shear stress", shear_columns_hint);
+  if (!normal && !normal_stress)
+    csv.refuse(at, "no column holds the normal stress",
+               std::string(shear_columns_hint) + "; or --normal-stress 93kPa where every test was under one");
+  if (normal && normal_stress)
+    throw InputError(fmt::format("--normal-stress: {} tells the normal stress of its tests itself", csv.file));
+
+  const std::vector<const CsvRow*> rows = rows_of(table, csv, only);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].holds == ShearHolds::label) need_label_of_tests(rows, i, table, csv);
+  need_possible_sizes(rows, columns, table, csv);
+
+  std::vector<MeasuredShear> tests;
+  std::map<std::pair<std::string, double>, std::size_t> places;
+  for (const CsvRow* row : rows) {
+    std::string name;
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (columns[i].holds == ShearHolds::label) name += (name.empty() ? "" : ", ") + row->cells[i].text;
+    const double stress = normal ? shear_value(row->cells[*normal], columns[*normal], csv) : *normal_stress;
+    if (!(stress > 0.0)) csv.refuse(row->cells[*normal].offset, "a normal stress must be above 0");
+    const auto [place, is_new] = places.try_emplace({name, stress}, tests.size());
+    if (is_new) tests.push_back({name, {.normal_stress = stress, .displacement = {}, .shear_stress = {}}});
+    const double j = shear_value(row->cells[*displacement], columns[*displacement], csv),
+                 tau = shear_value(row->cells[*shear], columns[*shear], csv);
+    if (!(j > 0.0 && tau > 0.0)) continue;
+    tests[place->second].curve.displacement.push_back(j);
+    tests[place->second].curve.shear_stress.push_back(tau);
+  }
+  return tests;
+}
+
+namespace {
+
+constexpr double hump_share = 0.9;  // of the peak, below which the end of a test is a residual strength
+
+ShearTestFit fit_of(const MeasuredShear& test) {
+  const ShearCurve& curve = test.curve;
+  if (curve.displacement.size() < 6)
+    throw InputError(
+        fmt::format("test '{}' has {} readings with a displacement and a shear stress above 0: six are needed",
+                    test.test, curve.displacement.size()));
+  ShearTestFit fit;
+  const auto top = std::ranges::max_element(curve.shear_stress) - curve.shear_stress.begin();
+  fit.peak = curve.shear_stress[static_cast<std::size_t>(top)];
+  fit.peak_at = curve.displacement[static_cast<std::size_t>(top)];
+  const double farthest = *std::ranges::max_element(curve.displacement);
+  std::vector<double> last;
+  for (std::size_t i = 0; i < curve.displacement.size(); ++i)
+    if (curve.displacement[i] > 0.9 * farthest) last.push_back(curve.shear_stress[i]);
+  const double end = std::reduce(last.begin(), last.end()) / static_cast<double>(last.size());
+  if (end < hump_share * fit.peak) fit.residual = end;
+
+  ShearCurve fitted = curve;
+  if (fit.residual) {
+    fitted.displacement.clear(), fitted.shear_stress.clear();
+    for (std::size_t i = 0; i < curve.displacement.size(); ++i)
+      if (curve.displacement[i] <= fit.peak_at)
+        fitted.displacement.push_back(curve.displacement[i]), fitted.shear_stress.push_back(curve.shear_stress[i]);
+  }
+  if (fitted.displacement.size() < 4)
+    throw InputError(
+        fmt::format("test '{}' has its peak at its first readings: there is no curve up to it", test.test));
+  fit.janosi = fit_janosi(fitted);
+  return fit;
+}
+
+/// Mean and standard deviation of one more test; 0 for a single one.
+Estimate mean_of_tests(const std::vector<double>& values) {
+  const Estimate mean = mean_of(values);
+  return {mean.value, mean.std_error * std::sqrt(static_cast<double>(values.size()))};
+}
+
+Estimate angle_through_zero(const std::vector<ShearTop>& tops) {
+  std::vector<double> angles;
+  for (const ShearTop& top : tops) angles.push_back(std::atan(top.shear_max / top.normal_stress));
+  return mean_of_tests(angles);
+}
+
+}  // namespace
+
+MeasuredShearFit fit_measured_shear(std::span<const MeasuredShear> tests) {
+  if (tests.empty()) throw InputError("no shear tests to fit");
+  MeasuredShearFit fit;
+  std::vector<ShearTop> tops, residuals;
+  std::vector<double> moduli;
+  for (const MeasuredShear& test : tests) {
+    fit.tests.push_back(fit_of(test));
+    const ShearTestFit& one = fit.tests.back();
+    tops.push_back({test.curve.normal_stress, one.janosi.shear_max});
+    if (one.residual) residuals.push_back({test.curve.normal_stress, *one.residual});
+    moduli.push_back(one.janosi.modulus);
+  }
+  fit.shear_modulus = mean_of_tests(moduli);
+  if (!residuals.empty()) fit.residual_angle = angle_through_zero(residuals);
+  const auto [least, most] = std::ranges::minmax(tops, {}, &ShearTop::normal_stress);
+  fit.one_stress = most.normal_stress < 1.05 * least.normal_stress;
+  if (fit.one_stress) {
+    fit.friction_angle = angle_through_zero(tops);
+    return fit;
+  }
+  const ShearStrength strength = strength_of(tops);
+  fit.cohesion = strength.cohesion, fit.friction_angle = strength.friction_angle;
+  fit.cohesion_as_fitted = strength.cohesion.value;
+  if (strength.cohesion.value < 0.0) fit.cohesion.value = 0.0, fit.friction_angle = angle_through_zero(tops);
+  return fit;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,58 @@
+#include "compare/bevameter/test_rows.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <set>
+
+#include "compare/report/number_text.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// The place of a column that --only names, where the file has it with this value.
+std::size_t place_of_wanted(const std::string& name, const std::string& value, const CsvTable& table,
+                            const SourceText& csv) {
+  std::vector<std::string> names;
+  for (const CsvCell& cell : table.header.cells) names.push_back(cell.text);
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end())
+    throw InputError(fmt::format("--only: {} has no column '{}'{}\n  hint: its columns are {}", csv.file, clipped(name),
+                                 did_you_mean(name, names), listed(names)));
+  const auto column = static_cast<std::size_t>(found - names.begin());
+  std::vector<std::string> values;
+  for (const CsvRow& row : table.rows)
+    if (std::ranges::find(values, row.cells[column].text) == values.end()) values.push_back(row.cells[column].text);
+  if (std::ranges::find(values, value) == values.end())
+    throw InputError(
+        fmt::format("--only: no row of {} has {} '{}'{}", csv.file, name, clipped(value), did_you_mean(value, values)));
+  return column;
+}
+
+}  // namespace
+
+std::vector<const CsvRow*> rows_of(const CsvTable& table, const SourceText& csv,
+                                   const std::vector<std::pair<std::string, std::string>>& only) {
+  std::vector<std::pair<std::size_t, std::string>> wanted;
+  for (const auto& [name, value] : only) wanted.emplace_back(place_of_wanted(name, value, table, csv), value);
+  std::vector<const CsvRow*> rows;
+  for (const CsvRow& row : table.rows)
+    if (std::ranges::all_of(wanted, [&](const auto& want) { return row.cells[want.first].text == want.second; }))
+      rows.push_back(&row);
+  return rows;
+}
+
+void need_label_of_tests(const std::vector<const CsvRow*>& rows, std::size_t column, const CsvTable& table,
+                         const SourceText& csv) {
+  std::set<std::string> values;
+  for (const CsvRow* row : rows) values.insert(row->cells[column].text);
+  if (2 * values.size() <= std::max<std::size_t>(rows.size(), 6)) return;
+  csv.refuse(table.header.cells[column].offset,
+             fmt::format("column '{}' has no unit, so it tells tests apart, and it has {} values in {} rows",
+                         clipped(table.header.cells[column].text), values.size(), rows.size()),
+             "take it out of the file, or let its name end in its unit (time_s): then it is left aside");
+}
+
+}  // namespace soilbin::compare

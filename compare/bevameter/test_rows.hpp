@@ -1,0 +1,23 @@
+// Rows of a CSV with one row a reading, where labels tell one test from another: which rows are wanted, and whether a
+// column can be such a label.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compare/measured/csv.hpp"
+
+namespace soilbin::compare {
+
+/// The rows whose columns have the values that `only` names, all rows without any. Throws InputError for a column or a
+/// value that the file does not have, with the nearest one.
+std::vector<const CsvRow*> rows_of(const CsvTable& table, const SourceText& csv,
+                                   const std::vector<std::pair<std::string, std::string>>& only);
+
+/// Throws InputError where the column, which has no unit and so tells tests apart, changes from row to row: a note, or
+/// a number without its unit, would make a test of each reading.
+void need_label_of_tests(const std::vector<const CsvRow*>& rows, std::size_t column, const CsvTable& table,
+                         const SourceText& csv);
+
+}  // namespace soilbin::compare
