@@ -184,7 +184,8 @@ void bind_explanation(py::module_& module) {
         return fmt::format("Explanation of a drawbar pull of {} N; print() shows its steps: {}",
                            compare::number(e.result.drawbar_pull), listed(names));
       });
-  module.def("explain", py::overload_cast<const Scenario&, const OperatingCondition&>(&compare::explain), py::arg("scenario"), py::arg("at"),
+  module.def("explain", py::overload_cast<const Scenario&, const OperatingCondition&>(&compare::explain),
+             py::arg("scenario"), py::arg("at"),
              "The model's equations with their values. Raises InputError and NoSolution as the model does.");
   module.def(
       "doubts", [](const Case& question) { return compare::in_words(compare::doubts(question)); }, py::arg("case"),
