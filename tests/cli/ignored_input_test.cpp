@@ -347,7 +347,7 @@ TEST(IgnoredInput, OfOtherCommands) {
        "--until-error has no effect"},
       {"record show no-such.json --packings 3", "--packings is about the runs that are missing"},
       {"element-test repose paper-sand --settling-friction dense", "takes no --settling-friction"},
-      {"calibrate paper-sand --across 9", "--across has no effect on the shear box"},
+      {"calibrate paper-sand --across 9", "--across has no effect on sand on sand"},
       {"calibrate paper-sand --contact tire --target board_angle=31deg --strength residual",
        "--strength has no effect on the tilting board"}};
   for (const auto& [command, says] : wrong) {

@@ -65,6 +65,7 @@ class TireFile : public testing::Test {
  protected:
   TireFile() { fs::create_directories(folder_); }
   ~TireFile() override { fs::remove_all(folder_); }
+  const fs::path& folder() const { return folder_; }
   void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
   Tire read(const std::string& table) const {
     write("table.csv", table);
@@ -73,7 +74,8 @@ class TireFile : public testing::Test {
   }
 
  private:
-  fs::path folder_ = fs::path(testing::TempDir()) / "deflection-table";
+  fs::path folder_ = fs::path(testing::TempDir()) /  // two tests may run at once
+                     (std::string("deflection-table-") + testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST_F(TireFile, NamesATable) {
@@ -105,7 +107,7 @@ TEST_F(TireFile, RefusesWhatIsNoTable) {
     for (const char* part : says) EXPECT_THAT(why, HasSubstr(part)) << table;
   }
   write("lost.yaml", "format: soilbin-tire/1\nradius: 600 mm\nwidth: 400 mm\ndeflection: no.csv\n");
-  EXPECT_THAT(refusal([&] { read_tire(fs::path(testing::TempDir()) / "deflection-table/lost.yaml"); }),
+  EXPECT_THAT(refusal([&] { read_tire(folder() / "lost.yaml"); }),
               AllOf(HasSubstr("no such file: 'no.csv'"), HasSubstr("lost.yaml:4")));
 }
 

@@ -108,7 +108,7 @@ class Lammps(unittest.TestCase):
     def test_a_run_is_recorded_as_that_of_dem_lammps(self):
         done = self.run_it("--engine", "lammps", "--ranks", "2", "--record", "two.json")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("dem-lammps", done.stdout)
+        self.assertIn("grains (LAMMPS)", done.stdout)
         self.assertIn("grain-steps/s", done.stderr)
         record = json.loads((self.folder / "two.json").read_text(encoding="utf-8"))
         self.assertEqual(record["model"], "dem-lammps")
