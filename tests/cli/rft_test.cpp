@@ -60,6 +60,13 @@ TEST(ResistiveForceCommand, TakesNoEffects) {
   EXPECT_THAT(run.err, HasSubstr("takes no effects"));
 }
 
+TEST(ResistiveForceCommand, HasNoEquationsOfBekker) {
+  const Scratch scratch;
+  const Outcome run = soilbin("explain '" + scratch.write("case.yaml", lugged_study(declared)).string() + "'");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("leave 'rft' out"));
+}
+
 TEST(ResistiveForceCommand, StandsInAComparison) {
   const Scratch scratch;
   const Outcome run = soilbin("compare '" + scratch.write("case.yaml", lugged_study(declared)).string() + "'");
