@@ -49,7 +49,7 @@ Difference difference_at(const SidePoint& a, const SidePoint& b, std::size_t cha
   return d;
 }
 
-/// Two analytic models take the same soil values: their doubt moves both alike, and adding it would count it twice.
+/// Two analytic wheels take the same soil values: their doubt moves both alike, and adding it would count it twice.
 void share_the_soil(Difference& d) {
   d.std_error = 0.0;
   d.sigma = not_a_number;
@@ -94,7 +94,8 @@ std::vector<Difference> differences(const std::vector<Side>& sides, std::size_t 
       if (!speaks(a, c) || !speaks(b, c)) continue;
       all.push_back(difference_at(a, b, c, channel_scale(channel_views[c], conditions[i].load, tire.radius)));
       all.back().side = side, all.back().reference = reference, all.back().condition = i;
-      if (sides[side].kind == SideKind::analytic && sides[reference].kind == SideKind::analytic)
+      if (sides[side].kind == SideKind::analytic && sides[reference].kind == SideKind::analytic &&
+          sides[side].model == sides[reference].model)
         share_the_soil(all.back());
     }
   }

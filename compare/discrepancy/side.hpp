@@ -57,6 +57,7 @@ struct Side {
   std::string label;
   SideKind kind = SideKind::analytic;
   std::vector<SidePoint> points;
+  ModelKind model = ModelKind::bekker_wong;  ///< of an analytic side: which of the quick models
   /// Of grains: whether the runs tell how far packings scatter, be it less than single runs' own errors.
   bool scatter_known = false;
   /// Of a measurement: the noise of one run, from all re-runs of the campaign.

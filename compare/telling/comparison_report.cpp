@@ -20,17 +20,22 @@ namespace {
 
 std::string named(const std::string& curve) { return curve.empty() ? "all conditions" : curve; }
 
-/// "the analytic wheel (bekker_wong), the same with effects, grains (dem) and measurements".
+/// "the analytic wheel (bekker_wong), the same with effects, resistive force theory (rft), grains (dem) and
+/// measurements".
 std::string sides_in_words(const Comparison& comparison) {
-  bool effects = false, grains = false, measured = false;
+  bool effects = false, rft = false, grains = false, measured = false;
   for (const Side& side : comparison.sides) {
-    effects = effects || (side.kind == SideKind::analytic && &side != comparison.sides.data());
+    const bool analytic = side.kind == SideKind::analytic;
+    rft = rft || (analytic && side.model == ModelKind::rft);
+    effects = effects || (analytic && side.model != ModelKind::rft && &side != comparison.sides.data());
     grains = grains || side.kind == SideKind::grains;
     measured = measured || side.kind == SideKind::measured;
   }
   std::vector<std::string> others;
-  for (const auto& [there, name] :
-       {std::pair{effects, "the same with effects"}, {grains, "grains (dem)"}, {measured, "measurements"}})
+  for (const auto& [there, name] : {std::pair{effects, "the same with effects"},
+                                    {rft, "resistive force theory (rft)"},
+                                    {grains, "grains (dem)"},
+                                    {measured, "measurements"}})
     if (there) others.emplace_back(name);
   std::string text = "the analytic wheel (bekker_wong)";
   for (const std::string& other : others) text += (&other == &others.back() ? " and " : ", ") + other;
@@ -83,7 +88,10 @@ std::string curves_in_words(const Comparison& comparison) {
     return std::ranges::find(comparison.sides, kind, &Side::kind) != comparison.sides.end();
   };
   std::string text;
-  if (there(SideKind::analytic)) text += "Lines: the analytic wheel, with one standard error of the soil's values. ";
+  if (there(SideKind::analytic))
+    text += std::ranges::count(comparison.sides, ModelKind::rft, &Side::model) > 0
+                ? "Lines: the quick models, with one standard error of the soil's values. "
+                : "Lines: the analytic wheel, with one standard error of the soil's values. ";
   if (there(SideKind::grains)) text += "Points on lines: grains, with one standard error of their runs. ";
   if (there(SideKind::measured)) text += "Points: measured, with one standard error of the measured runs. ";
   if (!text.empty()) text.pop_back();

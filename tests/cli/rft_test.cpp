@@ -72,6 +72,7 @@ TEST(ResistiveForceCommand, StandsInAComparison) {
   const Outcome run = soilbin("compare '" + scratch.write("case.yaml", lugged_study(declared)).string() + "'");
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("resistive force theory"));
+  EXPECT_THAT(run.out, Not(HasSubstr("no significance test"))) << "their soil values are not the same";
 }
 
 TEST(ResistiveForceCommand, PredictsAMeasuredSmoothWheelBetterThanItsDeclaredBekkerValues) {
