@@ -77,6 +77,9 @@ TractionResult traction_result(const RolledWheel& wheel, const Tire& tire, bool 
   result.entry_angle = wheel.patch.angles.entry;
   result.max_stress_angle = wheel.patch.angles.max_stress;
   result.exit_angle = wheel.patch.angles.exit;
+  result.contact_area = 0.0;
+  for (int i = 0; i < wheel.patch.count; ++i)
+    result.contact_area += tire.width * wheel.patch.arc[i] * wheel.patch.normal_cosine[i];
   result.budget = budget_of(wheel);
   result.budget_rest = rest_of(result.budget, wheel);
   if (with_patch) result.patch = stresses_of(wheel.patch);

@@ -56,6 +56,7 @@ void write_result(Json& row, const Answer& answer) {
   WriteJson visitor(row);
   result_fields(visitor, *answer.result);
   row["tractive_efficiency"] = finite(reported_efficiency(*answer.result));
+  if (std::isfinite(answer.result->contact_area)) row["contact_area"] = answer.result->contact_area;
   if (!answer.result->without_error_of.empty()) row["std_error_without"] = answer.result->without_error_of;
 }
 

@@ -164,6 +164,11 @@ std::vector<PrintedValue> printed_values(const TractionResult& r, ForcesIn told)
                  fmt::format("entry {:.1f} deg, peak stress {:.1f} deg, exit {:.1f} deg", r.entry_angle / degree,
                              r.max_stress_angle / degree, r.exit_angle / degree + 0.0),
                  ""});
+  if (std::isfinite(r.contact_area))
+    all.push_back({"Ground pressure",
+                   fmt::format("{} kPa: the load over {} cm² of contact, seen from above",
+                               number(r.at.load / r.contact_area / 1e3), number(1e4 * r.contact_area)),
+                   ""});
   std::string sum;
   for (const Contribution& part : r.budget) {
     const std::string sign = sum.empty() ? (part.force < 0 ? "-" : "") : (part.force < 0 ? " - " : " + ");

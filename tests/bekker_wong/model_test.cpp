@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::bekker_wong {
@@ -23,6 +25,16 @@ TEST(ValuesOf, EachParameterGoesToItsOwnMember) {
   EXPECT_EQ(values.c1, soil.stress_angle_c1.value);
   EXPECT_EQ(values.c2, soil.stress_angle_c2.value);
   EXPECT_EQ(values.density, 1234);
+}
+
+TEST(ContactArea, IsWhatARigidWheelsContactCoversSeenFromAbove) {
+  Scenario scenario;
+  scenario.tire.radius = 0.3, scenario.tire.width = 0.2;
+  SemiEmpiricalSoil& soil = scenario.soil.semi_empirical.emplace();
+  soil.exponent.value = 1.0, soil.k_phi.value = 1e6, soil.friction_angle.value = 0.5, soil.shear_modulus.value = 0.01;
+  soil.stress_angle_c1.value = 0.3, soil.stress_angle_c2.value = 0.2;
+  const TractionResult r = BekkerWong().evaluate(scenario, {.load = 800, .slip = 0.2});
+  EXPECT_NEAR(r.contact_area, 0.2 * 0.3 * (std::sin(r.entry_angle) - std::sin(r.exit_angle)), 1e-12);
 }
 
 }  // namespace
