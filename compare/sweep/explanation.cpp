@@ -368,8 +368,9 @@ std::vector<Explained> explain(const Case& question) {
   for (const ModelChoice& choice : question.study.models) {
     if (choice.model == ModelKind::dem) make_model(choice.model);  // says how grains are asked
     if (choice.model == ModelKind::rft)
-      throw InputError("explain shows the equations of bekker_wong alone: leave 'rft' out here\n  hint: 'soilbin run' "
-                       "answers by it, with the parts of its pull in --json");
+      throw InputError(
+          "explain shows the equations of bekker_wong alone: leave 'rft' out here\n  hint: 'soilbin run' "
+          "answers by it, with the parts of its pull in --json");
     const Scenario scenario = seen_by(choice, question.scenario);
     for (const OperatingCondition& at : question.study.conditions) all.push_back({choice, at, explain(scenario, at)});
   }
