@@ -6,7 +6,6 @@
 
 #include "cli/batch_flags.hpp"
 #include "cli/commands.hpp"
-#include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
@@ -17,6 +16,7 @@
 #include "compare/experiments/run_plan.hpp"
 #include "compare/failure_map/learned_map.hpp"
 #include "compare/telling/reports.hpp"
+#include "scenario/atomic_file.hpp"
 #include "scenario/nearest_word.hpp"
 
 namespace soilbin::cli {

@@ -25,7 +25,7 @@ inline constexpr const char* model_name = "rft";
 /// The soil's resistive_force values or, where it declares none, what its density and friction angle let expect:
 /// estimated_xi_n, +- 30 %, and the tangent of two thirds of the friction angle, +- 0.1 (usual between soil and a
 /// structure). The standard deviations are chosen: on the CMU sand the estimate is 1.08 MN/m^3, and its smooth wheel's
-/// sinkages ask for 1.0. Throws InputError for a soil that has neither.
+/// sinkages ask for 0.9. Throws InputError for a soil that has neither.
 ResistiveForceSoil resistive_force_of(const Soil& soil);
 
 class ResistiveForce final : public Model {

@@ -38,7 +38,7 @@ ResponseFits response_fits(double x1, double x2, double x3) {
 }
 
 Response response(const Vec3& n, const Vec3& v, const Vec3& up) {
-  if (dot(n, v) < 0.0) return {};
+  if (dot(n, v) < -vertical) return {};
   const Vec3 m = dot(n, up) < -vertical ? n : -n;
   const ResponseFits f = response_fits(-dot(v, up), -dot(m, up), dot(m, v));
   const Vec3 generic = f.f1 * m + f.f2 * v - f.f3 * up;

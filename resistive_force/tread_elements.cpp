@@ -22,13 +22,18 @@ WheelPart part_of(const Vec3& place, const Vec3& normal, const Tire& tire) {
   return outward && radius < tire.radius * (1 + beyond_tread) ? WheelPart::tread : WheelPart::lugs;
 }
 
+/// The tread base's normal: a triangle's own leans by its place in its flat, which a spinning wheel would push with.
+Vec3 radial(const Vec3& place) { return dem::unit({place.x, 0, place.z}); }
+
 std::vector<Element> elements_of(const dem::TriangleMesh& mesh, const Tire& tire) {
   std::vector<Element> all;
   all.reserve(static_cast<std::size_t>(mesh.size()));
   for (int t = 0; t < mesh.size(); ++t) {
     const Vec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
     const Vec3 place = (a + b + c) / 3.0, normal = mesh.frame(t).normal;
-    all.push_back({place, normal, 0.5 * length(cross(b - a, c - a)), part_of(place, normal, tire)});
+    const WheelPart part = part_of(place, normal, tire);
+    const double area = 0.5 * length(cross(b - a, c - a));
+    all.push_back({place, part == WheelPart::tread ? radial(place) : normal, area, part});
   }
   return all;
 }

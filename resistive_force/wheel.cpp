@@ -18,6 +18,7 @@ constexpr double deepest_share = 0.9;  // of the radius
 constexpr int turns_of_a_pitch = 8;    // over which a lugged wheel's forces are averaged
 constexpr int steps_down = 64;         // in which the first balance is looked for
 constexpr int precise_bits = 46;       // of the balanced depth
+constexpr double least_push = 1e-9;    // cosine of motion and normal; below it an element slides along itself
 
 /// A wheel's motion over a plane, in the frame of travel: x along it, y left, z out of the ground.
 struct Motion {
@@ -69,9 +70,13 @@ PushedWheel::PushedWheel(const TreadElements& elements, const Tire& tire, const 
       const double speed = length(velocity);
       if (speed < 1e-12) continue;
       const Vec3 normal = in_travel(e.normal, turn, m);
-      if (dot(normal, velocity) <= 0.0) continue;
+      double push = dot(normal, velocity) / speed;
+      if (std::abs(push) < least_push) push = dot(normal, m.heading);  // it slides along itself: a little more forward
+      if (push < -least_push) continue;
+      const double area =
+          push < least_push ? 0.5 * e.area : e.area;  // a side without yaw: to the left and to the right
       const Response r = response(normal, velocity / speed, {0, 0, 1});
-      contacts_.push_back({place, e.area * r.normal, e.area * r.tangential, level, e.part});
+      contacts_.push_back({place, area * r.normal, area * r.tangential, level, e.part});
     }
   }
 }

@@ -53,8 +53,10 @@ class PushedWheel {
  public:
   /// On a slope the theory's frame turns with the surface, whose depth is then measured square to it, and the stresses
   /// are those of gravity's part in that direction, xi_n cos(alpha) cos(beta_t): our choice, as the published theory
-  /// has level ground. That soil gives way more easily downhill is not in it. Throws InputError for an impossible
-  /// condition.
+  /// has level ground. That soil gives way more easily downhill is not in
+  /// it. An element that slides along itself (of a smooth wheel that spins on the spot or moves along its axle) counts
+  /// as it would with a little more way forward; a side without yaw by half, for left and right. Throws InputError for
+  /// an impossible condition.
   PushedWheel(const TreadElements& elements, const Tire& tire, const OperatingCondition& at);
 
   /// The depth at which the soil carries the load that presses on the surface, W cos(alpha) cos(beta_t): the shallowest

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "compare/bevameter/test_rows.hpp"
+#include "compare/report/number_text.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/mean_value.hpp"
 #include "scenario/quantity.hpp"

@@ -1,5 +1,7 @@
 #include "compare/calibrate/decision.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>

@@ -1,5 +1,7 @@
 #include "compare/experiments/study_results.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <map>
 

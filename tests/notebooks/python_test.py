@@ -61,7 +61,7 @@ class Answers(unittest.TestCase):
         frame = soilbin.sweep(scenario, soilbin.conditions(load=60.0, slip=[0.1, 0.3]), soilbin.ResistiveForce())
         self.assertTrue((frame.error == "").all())
         self.assertTrue((frame.drawbar_pull_std_error > 0).all())
-        self.assertEqual(list(frame.filter(like="budget_")), ["budget_tread"])
+        self.assertEqual(list(frame.filter(like="budget_")), ["budget_tread", "budget_sides"])
         self.assertGreater(frame.sinkage[1], frame.sinkage[0])
 
     def test_a_condition_without_solution_is_a_row_with_its_error(self):

@@ -131,8 +131,8 @@ TEST(PushedWheel, ChangesWithTheMediumAsItsSlopesSay) {
                 5e-3 * std::abs(slopes.forces.torque));
     EXPECT_NEAR((b.forces.left - a.forces.left) / step, slopes.forces.left, 5e-3 * std::abs(slopes.forces.left));
   };
-  difference({0.999 * sand.xi_n, 0.5}, {1.001 * sand.xi_n, 0.5}, 0.002 * sand.xi_n, here.by_xi_n);
-  difference({sand.xi_n, 0.499}, {sand.xi_n, 0.501}, 0.002, here.by_surface_friction);
+  difference({(1 - 1e-6) * sand.xi_n, 0.5}, {(1 + 1e-6) * sand.xi_n, 0.5}, 2e-6 * sand.xi_n, here.by_xi_n);
+  difference({sand.xi_n, 0.5 - 1e-6}, {sand.xi_n, 0.5 + 1e-6}, 2e-6, here.by_surface_friction);
 }
 
 TEST(PushedWheel, HardlyChangesWithFinerElements) {
@@ -159,6 +159,17 @@ TEST(PushedWheel, HasStressesThatCarryIt) {
   }
   EXPECT_NEAR(vertical, at.load, 0.005 * at.load);
   EXPECT_NEAR(torque, b.forces.torque, 0.01 * b.forces.torque);
+}
+
+TEST(PushedWheel, HasNoEndOfItsOwnWhereElementsSlideAlongThemselves) {
+  // A smooth wheel that spins on the spot, or moves along its axle: only its front half pushes.
+  for (const auto& [near, at] :
+       {std::pair{OperatingCondition{.load = 10, .slip = 0.9999}, OperatingCondition{.load = 10, .slip = 1}},
+        std::pair{OperatingCondition{.load = 10, .slip = 0.2, .yaw = 89.99 * degree, .slip_by = SlipBy::travel_speed},
+                  OperatingCondition{.load = 10, .slip = 0.2, .yaw = 90 * degree, .slip_by = SlipBy::travel_speed}}}) {
+    const Balance before = balanced(smooth(), near), here = balanced(smooth(), at);
+    EXPECT_NEAR(here.sinkage, before.sinkage, 1e-3 * before.sinkage);
+  }
 }
 
 TEST(PushedWheel, SaysWhenNothingCarriesTheLoad) {
