@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <tuple>
 
 #include "resistive_force/response.hpp"
 #include "scenario/errors.hpp"
@@ -90,8 +90,7 @@ ResistiveForceSoil resistive_force_of(const Soil& soil) {
 std::shared_ptr<const TreadElements> ResistiveForce::elements_of(const Tire& tire) const {
   const std::lock_guard lock(mutex_);
   if (!elements_ || outline(last_) != outline(tire)) {
-    elements_ =
-        std::make_shared<const TreadElements>(drawn_.empty() ? tread_elements(tire) : drawn_elements(drawn_, tire));
+    elements_ = std::make_shared<const TreadElements>(tread_elements(tire));
     last_ = tire;
   }
   return elements_;

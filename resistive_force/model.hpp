@@ -11,7 +11,6 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <utility>
 
 #include "resistive_force/tread_elements.hpp"
 #include "resistive_force/wheel.hpp"
@@ -30,8 +29,6 @@ ResistiveForceSoil resistive_force_of(const Soil& soil);
 
 class ResistiveForce final : public Model {
  public:
-  /// `drawn`: a file with the wheel as drawn, in place of soilbin's own; empty: none.
-  explicit ResistiveForce(std::string drawn = {}) : drawn_(std::move(drawn)) {}
   std::string name() const override { return model_name; }
   /// Standard errors from those of xi_n and surface friction, to first order. Throws what
   /// resistive_force_of does, InputError for a tire whose lugs can't be drawn and an impossible condition, NoSolution
@@ -41,7 +38,6 @@ class ResistiveForce final : public Model {
  private:
   std::shared_ptr<const TreadElements> elements_of(const Tire& tire) const;
 
-  std::string drawn_;
   // The last tire's elements: a study asks one tire hundreds of times.
   mutable std::mutex mutex_;
   mutable Tire last_;

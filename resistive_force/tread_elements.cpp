@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "dem/surface/drawn_wheel.hpp"
 #include "dem/surface/shapes.hpp"
 
 namespace soilbin::resistive_force {
@@ -69,10 +68,6 @@ TreadElements tread_elements(const Tire& tire, double finer) {
   const dem::TireMeshing meshing{.edge = finer * edge_per_radius * tire.radius};
   std::vector<Element> all = elements_of(dem::tire_surface(tire, meshing), tire);
   return {has_alike_halves(tire) ? mirrored(all, tire) : all, pitch_of(tire)};
-}
-
-TreadElements drawn_elements(const std::string& file, const Tire& tire) {
-  return {elements_of(dem::read_wheel(file, tire).mesh, tire), tire.lugs.count ? pitch_of(tire) : 2 * std::numbers::pi};
 }
 
 }  // namespace soilbin::resistive_force

@@ -4,7 +4,6 @@
 //   elements.all.size(), elements.pitch  // 5,000 or so; [rad] after which the lugs look alike
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "dem/surface/vec3.hpp"
@@ -37,9 +36,5 @@ inline constexpr double edge_per_radius = 0.05;
 /// edge_per_radius times `finer` of its radius. Throws InputError where a lugged tire's number or thickness of lugs
 /// is not known.
 TreadElements tread_elements(const Tire& tire, double finer = 1.0);
-
-/// The elements of a wheel as drawn: a file, .stl or .obj (dem/surface/drawn_wheel.hpp). What reaches beyond the
-/// tire's radius are its lugs; it looks alike after a whole turn, unless the tire tells the number of its lugs.
-TreadElements drawn_elements(const std::string& file, const Tire& tire);
 
 }  // namespace soilbin::resistive_force

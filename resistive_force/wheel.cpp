@@ -115,8 +115,6 @@ SoilForces sum(const SoilForces& a, const SoilForces& b) {
 
 }  // namespace
 
-double PushedWheel::carried(const Medium& medium, double sinkage) const { return forces(medium, sinkage).vertical; }
-
 SoilForces PushedWheel::forces(const Medium& medium, double sinkage) const {
   return scaled(medium.xi_n, sums(weighed(medium), sinkage).forces);
 }

@@ -63,8 +63,6 @@ class PushedWheel {
   /// one. Throws NoSolution where none down to 0.9 of the radius does.
   Balance balance(const Medium& medium) const;
 
-  /// What the soil carries at a sinkage [N].
-  double carried(const Medium& medium, double sinkage) const;
   /// Forces at a sinkage, balanced or not.
   SoilForces forces(const Medium& medium, double sinkage) const;
   /// The forces at a sinkage by WheelPart.

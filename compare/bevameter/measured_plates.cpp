@@ -281,19 +281,20 @@ double slope_of(const PlateCurve& curve) {
 /// Fills xi_n: its scatter is that between tests of all sizes, since the theory makes no difference between them.
 void add_xi_n(const std::vector<PlateCurve>& curves, MeasuredPlatesFit& fit) {
   const double n = static_cast<double>(curves.size()), response = resistive_force::plate_response();
-  double mean = 0.0, square = 0.0, lower = 0.0, upper = 0.0, missed = 0.0, pressure = 0.0;
+  double lower = 0.0, upper = 0.0, missed = 0.0, pressure = 0.0;
+  std::vector<double> of_tests;
   for (const PlateCurve& curve : curves) {
-    const double xi = slope_of(curve) / response;
-    mean += xi / n, square += xi * xi / n;
+    of_tests.push_back(slope_of(curve) / response);
     PlateCurve low{curve.radius, {}, {}}, high = low;
     const double half = *std::ranges::max_element(curve.pressure) / 2;
     for (std::size_t i = 0; i < curve.pressure.size(); ++i) {
       PlateCurve& to = curve.pressure[i] < half ? low : high;
       to.sinkage.push_back(curve.sinkage[i]), to.pressure.push_back(curve.pressure[i]);
     }
-    lower += (low.pressure.empty() ? xi * response : slope_of(low)) / response / n;
+    lower += slope_of(low.pressure.empty() ? curve : low) / response / n;
     upper += slope_of(high) / response / n;
   }
+  const double mean = mean_of(of_tests).value;
   for (const PlateCurve& curve : curves)
     for (std::size_t i = 0; i < curve.pressure.size(); ++i) {
       const double off = curve.pressure[i] - response * mean * curve.sinkage[i];
@@ -301,7 +302,7 @@ void add_xi_n(const std::vector<PlateCurve>& curves, MeasuredPlatesFit& fit) {
     }
   const double readings = static_cast<double>(fit.readings);
   fit.xi_n_pressure_error = std::sqrt(missed / readings) / (pressure / readings);
-  fit.xi_n.between_tests = n > 1 ? std::sqrt(std::max(0.0, square - mean * mean) * n / (n - 1)) : 0.0;
+  fit.xi_n.between_tests = spread_of(of_tests);
   fit.xi_n.between_pressures = std::abs(upper - lower) / 2;
   fit.xi_n.estimate = {mean, std::hypot(fit.xi_n.between_tests, fit.xi_n.between_pressures)};
 }

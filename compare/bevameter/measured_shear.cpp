@@ -11,7 +11,7 @@
 #include "compare/bevameter/test_rows.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/mean_value.hpp"
+#include "scenario/estimate.hpp"
 #include "scenario/quantity.hpp"
 
 namespace soilbin::compare {
@@ -41,18 +41,13 @@ constexpr const char* shear_columns_hint =
     "columns: displacement_mm, shear_stress_kPa, normal_stress_kPa, in any unit, and those without a unit that tell "
     "tests apart, such as test";
 
-ShearColumn shear_column(const std::string& name) {
-  const std::size_t bar = name.rfind('_');
-  if (bar == std::string::npos || bar + 1 == name.size()) return {ShearHolds::label, "", name};
-  ShearColumn column{ShearHolds::nothing, name.substr(bar + 1), name};
-  try {
-    const Unit unit = parse_unit(column.unit);
-    for (const ShearLimits& one : shear_limits)
-      if (name.substr(0, bar) == one.what && same_dimension(unit.dimension, parse_unit(one.dimension).dimension))
-        column.holds = one.holds;
-  } catch (const InputError&) {
-    return {ShearHolds::label, "", name};
-  }
+ShearColumn shear_column(const std::string& header) {
+  const std::optional<NamedUnit> named = name_and_unit(header);
+  if (!named) return {ShearHolds::label, "", header};
+  ShearColumn column{ShearHolds::nothing, named->unit, header};
+  for (const ShearLimits& one : shear_limits)
+    if (named->name == one.what && same_dimension(named->parsed.dimension, parse_unit(one.dimension).dimension))
+      column.holds = one.holds;
   return column;
 }
 
@@ -70,17 +65,14 @@ std::optional<std::size_t> place_of(ShearHolds what, const std::vector<ShearColu
   return place;
 }
 
-double shear_value(const CsvCell& cell, const ShearColumn& column, const SourceText& csv) {
-  return cell.text.empty() ? 0.0 : number_in(cell, column.name, column.unit, csv) / per_unit(column.unit);
-}
-
 void need_possible_sizes(const std::vector<const CsvRow*>& rows, const std::vector<ShearColumn>& columns,
                          const CsvTable& table, const SourceText& csv) {
   for (const ShearLimits& limits : shear_limits)
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (columns[i].holds != limits.holds) continue;
       double largest = 0.0;
-      for (const CsvRow* row : rows) largest = std::max(largest, shear_value(row->cells[i], columns[i], csv));
+      for (const CsvRow* row : rows)
+        largest = std::max(largest, reading_in(row->cells[i], columns[i].name, columns[i].unit, csv));
       if (largest >= limits.least && largest <= limits.most) continue;
       const double per = per_unit(columns[i].unit);
       csv.refuse(
@@ -123,12 +115,14 @@ std::vector<MeasuredShear> read_shear(const SourceText& csv,
     std::string name;
     for (std::size_t i = 0; i < columns.size(); ++i)
       if (columns[i].holds == ShearHolds::label) name += (name.empty() ? "" : ", ") + row->cells[i].text;
-    const double stress = normal ? shear_value(row->cells[*normal], columns[*normal], csv) : *normal_stress;
+    const double stress =
+        normal ? reading_in(row->cells[*normal], columns[*normal].name, columns[*normal].unit, csv) : *normal_stress;
     if (!(stress > 0.0)) csv.refuse(row->cells[*normal].offset, "a normal stress must be above 0");
     const auto [place, is_new] = places.try_emplace({name, stress}, tests.size());
     if (is_new) tests.push_back({name, {.normal_stress = stress, .displacement = {}, .shear_stress = {}}});
-    const double j = shear_value(row->cells[*displacement], columns[*displacement], csv),
-                 tau = shear_value(row->cells[*shear], columns[*shear], csv);
+    const double j = reading_in(row->cells[*displacement], columns[*displacement].name, columns[*displacement].unit,
+                                csv),
+                 tau = reading_in(row->cells[*shear], columns[*shear].name, columns[*shear].unit, csv);
     if (!(j > 0.0 && tau > 0.0)) continue;
     tests[place->second].curve.displacement.push_back(j);
     tests[place->second].curve.shear_stress.push_back(tau);
@@ -172,10 +166,7 @@ ShearTestFit fit_of(const MeasuredShear& test) {
 }
 
 /// Mean and standard deviation of one more test; 0 for a single one.
-Estimate mean_of_tests(const std::vector<double>& values) {
-  const Estimate mean = mean_of(values);
-  return {mean.value, mean.std_error * std::sqrt(static_cast<double>(values.size()))};
-}
+Estimate mean_of_tests(const std::vector<double>& values) { return {mean_of(values).value, spread_of(values)}; }
 
 Estimate angle_through_zero(const std::vector<ShearTop>& tops) {
   std::vector<double> angles;

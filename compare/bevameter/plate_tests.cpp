@@ -43,19 +43,12 @@ constexpr const char* columns_hint =
 
 /// A name and, behind its last '_', a unit of the dimension that it must have; no value where it isn't one.
 std::optional<PlateColumn> measured_column(const std::string& name) {
-  const std::size_t bar = name.rfind('_');
-  if (bar == std::string::npos || bar + 1 == name.size()) return std::nullopt;
-  const std::string unit = name.substr(bar + 1);
-  Unit parsed;
-  try {
-    parsed = parse_unit(unit);
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-  const std::string what = name.substr(0, bar);
+  const std::optional<NamedUnit> named = name_and_unit(name);
+  if (!named) return std::nullopt;
+  const std::string& unit = named->unit;
   const auto is = [&](std::initializer_list<const char*> words, const char* dimension) {
-    return std::ranges::find(words, what) != words.end() &&
-           same_dimension(parsed.dimension, parse_unit(dimension).dimension);
+    return std::ranges::find(words, named->name) != words.end() &&
+           same_dimension(named->parsed.dimension, parse_unit(dimension).dimension);
   };
   if (is({"plate_diameter", "diameter"}, "m")) return PlateColumn{Holds::diameter, unit};
   if (is({"plate_radius", "radius"}, "m")) return PlateColumn{Holds::radius, unit};
@@ -112,8 +105,7 @@ void need_columns(const std::vector<PlateColumn>& columns, const CsvTable& table
 
 /// 0 in an empty cell: nothing was measured, and no reading counts there.
 double value_in(const CsvCell& cell, const PlateColumn& column, const SourceText& csv) {
-  if (cell.text.empty()) return 0.0;
-  return number_in(cell, column.name, column.unit, csv) / per_unit(column.unit);
+  return reading_in(cell, column.name, column.unit, csv);
 }
 
 /// "plate_d60mm": the diameter behind the last 'd' that a length follows.

@@ -33,6 +33,23 @@ std::size_t place_of_wanted(const std::string& name, const std::string& value, c
 
 }  // namespace
 
+std::optional<NamedUnit> name_and_unit(const std::string& column) {
+  const std::size_t bar = column.rfind('_');
+  if (bar == std::string::npos || bar + 1 == column.size()) return std::nullopt;
+  NamedUnit named{column.substr(0, bar), column.substr(bar + 1), {}};
+  try {
+    named.parsed = parse_unit(named.unit);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  return named;
+}
+
+double reading_in(const CsvCell& cell, const std::string& column, const std::string& unit, const SourceText& csv) {
+  if (cell.text.empty()) return 0.0;
+  return number_in(cell, column, unit, csv) / per_unit(unit);
+}
+
 std::vector<const CsvRow*> rows_of(const CsvTable& table, const SourceText& csv,
                                    const std::vector<std::pair<std::string, std::string>>& only) {
   std::vector<std::pair<std::size_t, std::string>> wanted;

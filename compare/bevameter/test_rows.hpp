@@ -2,13 +2,26 @@
 // column can be such a label.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "scenario/csv.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
+
+/// A column's name and, behind its last '_', a unit.
+struct NamedUnit {
+  std::string name, unit;
+  Unit parsed;
+};
+/// "sinkage_mm" as "sinkage" in mm; none for a name that does not end in a unit.
+std::optional<NamedUnit> name_and_unit(const std::string& column);
+
+/// The number of a cell in SI; 0 in an empty one: nothing was measured, and no reading counts there. Throws InputError.
+double reading_in(const CsvCell& cell, const std::string& column, const std::string& unit, const SourceText& csv);
 
 /// The rows whose columns have the values that `only` names, all rows without any. Throws InputError for a column or a
 /// value that the file does not have, with the nearest one.

@@ -17,6 +17,7 @@ struct Declared {
   std::optional<DoubtKind> of_grains;  ///< the same of grains; none where they hear of it
   std::optional<DoubtKind> needs;      ///< that an effect lacks it; none where effects do without
   std::function<bool(const Case&)> given;
+  std::string of_rft{};  ///< what resistive force theory does not know of it, in words; "" where it reads it
 };
 
 bool any_condition(const Case& question, const std::function<bool(const OperatingCondition&)>& has) {
@@ -36,20 +37,27 @@ bool tells_speed(const Case& question) {
 const std::vector<Declared>& declarable() {
   using At = const OperatingCondition&;
   const auto some = [](auto has) { return [has](const Case& question) { return any_condition(question, has); }; };
-  const auto of_condition = [&](const std::string& key, std::optional<DoubtKind> of_grains, DoubtKind needs, auto has) {
-    return Declared{key, DoubtKind::condition_ignored, of_grains, needs, some(has)};
+  const auto of_condition = [&](const std::string& key, std::optional<DoubtKind> of_grains, DoubtKind needs, auto has,
+                                const std::string& of_rft = "") {
+    return Declared{
+        key, DoubtKind::condition_ignored, of_grains, needs, some(has), of_rft.empty() ? "'" + key + "'" : of_rft};
   };
   const auto typed = [](const Case& question, const std::string& key) {
     return question.on_command_line.contains(key);
   };
   // Files may say more than one model needs; whoever types a value wants it to matter. Grains hear of these.
-  const auto of_typed = [&](const std::string& key, DoubtKind kind) {
-    return Declared{key, kind, {}, {}, [=](const Case& question) {
+  const auto of_typed = [&](const std::string& key, DoubtKind kind, const std::string& of_rft = "") {
+    return Declared{key,
+                    kind,
+                    {},
+                    {},
+                    [=](const Case& question) {
                       const auto source = question.scenario.tire.sources.find(key);
                       const bool of_tire = source != question.scenario.tire.sources.end();
                       return (of_tire ? source->second == command_line_source : typed(question, key)) &&
                              !asks(question.study, ModelKind::dem);
-                    }};
+                    },
+                    of_rft};
   };
   // These are about the angle between wheel and travel.
   const auto of_yaw = [&](const std::string& key) {
@@ -66,7 +74,8 @@ const std::vector<Declared>& declarable() {
        [](const Case& question) {
          return question.scenario.tire.inflation_pressure.has_value() ||
                 any_condition(question, [](const OperatingCondition& at) { return at.inflation_pressure.has_value(); });
-       }},
+       },
+       "the inflation pressure: its wheel is rigid"},
       {"carcass_pressure",
        DoubtKind::carcass_ignored,
        DoubtKind::carcass_ignored_by_grains,
@@ -76,12 +85,14 @@ const std::vector<Declared>& declarable() {
          const auto source = tire.sources.find("carcass_pressure");
          const bool is_typed = source != tire.sources.end() && source->second == command_line_source;
          return tire.carcass_pressure && (is_typed || !tire.inflation_pressure);
-       }},
+       },
+       "the carcass pressure: its wheel is rigid"},
       {deflection_key,
        DoubtKind::deflection_ignored,
        DoubtKind::deflection_ignored_by_grains,
        {},
-       [](const Case& question) { return question.scenario.tire.deflection.has_value(); }},
+       [](const Case& question) { return question.scenario.tire.deflection.has_value(); },
+       "the load-deflection table: its wheel is rigid"},
       of_typed("lugs.count", DoubtKind::lug_count_ignored),
       of_typed("lugs.thickness", DoubtKind::lug_thickness_ignored),
       of_typed("lugs.pattern", DoubtKind::lug_pattern_ignored),
@@ -92,8 +103,9 @@ const std::vector<Declared>& declarable() {
        {},
        [=](const Case& question) {
          return (typed(question, "speed") || tells_speed(question)) && !asks(question.study, ModelKind::dem);
-       }},
-      of_typed("bin", DoubtKind::bin_ignored),
+       },
+       "'speed'"},
+      of_typed("bin", DoubtKind::bin_ignored, "'bin'"),
       of_yaw("slip_by"),
       of_yaw("force_frame"),
       {"no_assumed_sd",
@@ -101,7 +113,8 @@ const std::vector<Declared>& declarable() {
        DoubtKind::assumed_errors_ignored_by_grains,
        {},
        [=](const Case& question) { return typed(question, "no_assumed_sd"); }},
-      of_condition("pass", {}, DoubtKind::effect_without_pass, [](At at) { return at.pass > 1; }),
+      of_condition(
+          "pass", {}, DoubtKind::effect_without_pass, [](At at) { return at.pass > 1; }, "the pass: it has no rut"),
       of_condition("moisture", DoubtKind::condition_ignored_by_grains, DoubtKind::effect_without_condition,
                    [](At at) { return at.moisture.has_value(); }),
       of_condition("position", DoubtKind::condition_ignored_by_grains, DoubtKind::effect_without_condition,
@@ -141,16 +154,6 @@ bool hears(const ModelChoice& choice, const Declared& declared) {
   });
 }
 
-/// What resistive force theory does not know of, in words; "" for what it reads.
-std::string unknown_to_rft(const std::string& key) {
-  if (key == "pass") return "the pass: it has no rut";
-  if (key == "inflation_pressure") return "the inflation pressure: its wheel is rigid";
-  if (key == "carcass_pressure") return "the carcass pressure: its wheel is rigid";
-  if (key == deflection_key) return "the load-deflection table: its wheel is rigid";
-  if (key == "speed" || key == "moisture" || key == "position" || key == "run" || key == "bin") return "'" + key + "'";
-  return "";
-}
-
 /// That a thing which is given changes nothing of the analytic models or, where these hear or aren't asked, of grains
 /// or of resistive force theory.
 Doubts doubts_of_unused(const std::vector<ModelChoice>& models, const Declared& declared) {
@@ -158,8 +161,8 @@ Doubts doubts_of_unused(const std::vector<ModelChoice>& models, const Declared& 
     return std::ranges::any_of(models, [&](auto& m) { return m.model == kind; });
   };
   const bool grains = asked(ModelKind::dem), wheel = asked(ModelKind::bekker_wong);
-  const std::string unknown = unknown_to_rft(declared.key);
-  if (asked(ModelKind::rft) && !unknown.empty() && !wheel) return {Doubt{DoubtKind::ignored_by_rft, {unknown}}};
+  if (asked(ModelKind::rft) && !declared.of_rft.empty() && !wheel)
+    return {Doubt{DoubtKind::ignored_by_rft, {declared.of_rft}}};
   if (wheel && std::none_of(models.begin(), models.end(), [&](const ModelChoice& m) { return hears(m, declared); }))
     return {Doubt{*declared.of_wheel, {declared.key, hearing_effects(declared.key)}}};
   if (!grains || !declared.of_grains) return {};
