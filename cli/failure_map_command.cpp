@@ -1,4 +1,4 @@
-// soilbin failure-map: where the analytic model parts from grains, over load, lug height, an incline and slip.
+// soilbin failure-map: where two models part, over load, lug height, an incline and slip.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace {
 constexpr long long most_conditions_of_map = 1000;
 
 struct FailureMapOptions {
-  std::string study, soil, incline = "longitudinal", store, tolerance = "10%";
+  std::string study, soil, incline = "longitudinal", of = "bekker_wong", against = "dem", store, tolerance = "10%";
   std::string load, lug_height, angle, slip;
   std::vector<std::string> effects;
   int first = 24, at_boundary = 12, fresh = 0, rounds = 4;
@@ -44,19 +44,22 @@ compare::Factor range_of(const std::string& flag, const std::string& text, const
   return {name, lower, upper, measure.unit};
 }
 
-compare::Incline incline_of(const std::string& text) {
-  if (const auto incline = value_named<compare::Incline>(text)) return *incline;
-  const std::vector<std::string> right = all_words<compare::Incline>();
-  throw InputError("--incline: unknown kind '" + clipped(text) + "'" + did_you_mean(text, right) +
-                   "\n  hint: there are " + listed(right));
+/// The value that a flag's text names.
+template <class E>
+E word_given(const std::string& flag, const std::string& text) {
+  if (const auto value = value_named<E>(text)) return *value;
+  const std::vector<std::string> right = all_words<E>();
+  throw InputError(fmt::format("{}: unknown word '{}'{}\n  hint: there are {}", flag, clipped(text),
+                               did_you_mean(text, right), listed(right)));
 }
 
 compare::InclineMap map_of(const FailureMapOptions& asked, const Case& question, const Workplace& place) {
   compare::InclineMap map;
+  map.of = word_given<ModelKind>("--of", asked.of), map.against = word_given<ModelKind>("--against", asked.against);
   map.scenario = question.scenario;
   map.base = question.study.conditions.front();
   map.base.pass = 1;
-  map.incline = incline_of(asked.incline);
+  map.incline = word_given<compare::Incline>("--incline", asked.incline);
   map.factors = {range_of("--load", asked.load, "load", {"N", above_zero}),
                  range_of("--lug-height", asked.lug_height, "lug height", {"mm", zero_or_more}),
                  range_of("--angle", asked.angle, "angle", {"deg", inclines}),
@@ -72,18 +75,31 @@ void show_run(const dem::Progress& at) {
   show_progress_line(std::string(at.stage));
 }
 
+compare::FailureMapAbout about(const FailureMapOptions& asked, const Case& question, const compare::InclineMap& map,
+                               const Session& session) {
+  return {"Failure map: " + name_of(map.incline), write_case(question, session.place.effects), asked.rows};
+}
+
+/// Experiments that are to be made: with the soil's grains, and with coarser ones.
+struct PlannedExperiments {
+  const std::vector<compare::ExperimentSpec>&usual, &coarser;
+};
+
 /// The experiments that the map would make first, as runs and their cost; more are chosen by their answers.
 int plan(const FailureMapOptions& asked, Case question, const compare::InclineMap& map,
-         const std::vector<compare::ExperimentSpec>& experiments) {
+         const PlannedExperiments& experiments) {
   std::vector<compare::RunSpec> list;
   std::vector<std::string> lugs;
   question.scenario.tire.lugs.height = map.factors[compare::map_lug_height].upper;
   question.study.conditions.clear();
-  for (const compare::ExperimentSpec& one : experiments) {
-    list.push_back({compare::condition_at(map, one.values), one.seed});
-    question.study.conditions.push_back(list.back().at);
-    lugs.push_back(fmt::format("lugs of {:.3g} mm", 1000 * one.values[compare::map_lug_height]));
-  }
+  const auto add = [&](const std::vector<compare::ExperimentSpec>& made, compare::RunKind kind) {
+    for (const compare::ExperimentSpec& one : made) {
+      list.push_back({compare::condition_at(map, one.values), one.seed, kind});
+      question.study.conditions.push_back(list.back().at);
+      lugs.push_back(fmt::format("lugs of {:.3g} mm", 1000 * one.values[compare::map_lug_height]));
+    }
+  };
+  add(experiments.usual, compare::RunKind::usual), add(experiments.coarser, compare::RunKind::coarser);
   if (list.empty()) {
     fmt::print("nothing is left to make\n");
     return done;
@@ -102,22 +118,24 @@ int plan(const FailureMapOptions& asked, Case question, const compare::InclineMa
   return done;
 }
 
+/// Of a map without grains: two quick models, of which nothing is kept.
+int map_of_quick_models(const FailureMapOptions& asked, const Case& question, const compare::InclineMap& map,
+                        const compare::MapLearning& how, const Session& session) {
+  const compare::FailureMapResult result = compare::learn_map(map, {}, how);
+  clear_progress_line();
+  return publish(compare::report_on(result, about(asked, question, map, session)), asked.outputs, doubts_of(result, {}),
+                 session)
+      .status(done);
+}
+
 int failure_map(const FailureMapOptions& asked, const CLI::App& command, const Session& session) {
   Case question = find_study(session.place, asked.study);
-  check_flags_of_grains(asked.soil_bin, command, question);
+  const compare::InclineMap as_asked = map_of(asked, question, session.place);
+  const bool grains_asked = as_asked.of == ModelKind::dem || as_asked.against == ModelKind::dem;
+  check_flags_of_grains(asked.soil_bin, command, question, {.asked = grains_asked, .hint = "--against dem"});
   const AnalyticSoil values(asked.soil, session.place.library, question.scenario.soil);
-  if (!asked.stored && !asked.store.empty())  // what is only read may lie anywhere
-    if (const std::string why = why_not_writable(asked.store); !why.empty()) throw InputError("--store: " + why);
-  asked.batch.check(asked.store);
-  compare::ExperimentStore store(asked.store, asked.batch.writers());
-  tell_unsealed(store, asked.store);
-  asked.batch.learn(store);
-  const compare::InclineMap map = map_of(asked, question, session.place);
-  compare::VirtualTest grains =
-      compare::map_grains(map, settings_of(asked.soil_bin), {.version = SOILBIN_VERSION, .source = source_state()});
-  if (asked.stored) grains.run = {};
-  if (asked.batch.answers()) return asked.batch.answer(grains, store);
-  if (asked.batch.asks() || asked.dry_run) grains.asked = std::make_shared<std::vector<compare::ExperimentSpec>>();
+  compare::InclineMap map = as_asked;
+  map.scenario.soil = question.scenario.soil;
   const compare::MapLearning how{.runs = {.first = asked.first,
                                           .at_boundary = asked.at_boundary,
                                           .at_once = std::max(asked.dry_run ? asked.at_boundary : 1, asked.batch.ask),
@@ -125,17 +143,33 @@ int failure_map(const FailureMapOptions& asked, const CLI::App& command, const S
                                           .watch = show_run},
                                  .rounds = asked.rounds,
                                  .fresh = asked.fresh,
-                                 .tolerance = read_flag("--tolerance", asked.tolerance, {"%", above_zero}),
-                                 .packing = static_cast<std::uint64_t>(asked.soil_bin.packing)};
+                                 .tolerance = read_flag("--tolerance", asked.tolerance, {"%", above_zero})};
+  if (!grains_asked) return map_of_quick_models(asked, question, map, how, session);
+  if (!asked.stored && !asked.store.empty())  // what is only read may lie anywhere
+    if (const std::string why = why_not_writable(asked.store); !why.empty()) throw InputError("--store: " + why);
+  asked.batch.check(asked.store);
+  compare::ExperimentStore store(asked.store, asked.batch.writers());
+  tell_unsealed(store, asked.store);
+  asked.batch.learn(store);
+  const dem::DemSettings settings = settings_of(asked.soil_bin);
+  const compare::RunKeeping keeping{.version = SOILBIN_VERSION, .source = source_state()};
+  compare::VirtualTest runs = compare::map_grains(map, settings, keeping);
+  compare::VirtualTest coarser = compare::coarser_map_grains(map, settings, keeping);
+  if (asked.stored) runs.run = coarser.run = {};
+  if (asked.batch.answers()) return asked.batch.answer(runs, store);
+  if (asked.batch.asks() || asked.dry_run)
+    for (compare::VirtualTest* test : {&runs, &coarser})
+      test->asked = std::make_shared<std::vector<compare::ExperimentSpec>>();
+  const compare::MapGrains grains{&runs, asked.soil_bin.coarser_twin ? &coarser : nullptr, &store,
+                                  static_cast<std::uint64_t>(asked.soil_bin.packing)};
   try {
-    compare::FailureMapResult result = compare::learn_map(map, grains, store, how);
+    compare::FailureMapResult result = compare::learn_map(map, grains, how);
     clear_progress_line();
-    if (asked.dry_run) return plan(asked, question, map, *grains.asked);
-    if (grains.waits()) return asked.batch.write(grains);
+    if (asked.dry_run) return plan(asked, question, map, {*runs.asked, *coarser.asked});
+    if (grains.waits()) return asked.batch.write(runs);
     result.map.scenario.soil.name = values.title(true);
-    const compare::FailureMapAbout about{"Failure map: " + name_of(result.map.incline),
-                                         write_case(question, session.place.effects), asked.rows};
-    return publish(compare::report_on(result, about), asked.outputs, doubts_of(result, grains, store), session)
+    return publish(compare::report_on(result, about(asked, question, map, session)), asked.outputs,
+                   doubts_of(result, grains), session)
         .status(done);
   } catch (const Interrupted&) {
     if (!asked.store.empty())
@@ -148,12 +182,15 @@ int failure_map(const FailureMapOptions& asked, const CLI::App& command, const S
 
 void add_failure_map(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand(
-      "failure-map", "where the analytic model and grains disagree, over load, lugs, slip and slope");
+      "failure-map", "where two models disagree, the analytic wheel and grains, say, over load, lugs, slip and slope");
   const auto asked = std::make_shared<FailureMapOptions>();
   add_value(*command, "study", asked->study, "STUDY", "the study whose wheel, soil, bin and speed are taken")
       ->required();
   add_value(*command, "--soil", asked->soil, "SOIL",
             "the analytic model's values from this soil, as bevameter writes one");
+  add_value(*command, "--of", asked->of, "MODEL", "the model that is judged: bekker_wong (default) or rft");
+  add_value(*command, "--against", asked->against, "MODEL",
+            "the model that it is judged by: dem (default), or another quick one, without grains");
   add_value(*command, "--incline", asked->incline, "KIND", "longitudinal (default), transverse or yaw");
   add_value(*command, "--load", asked->load, "LOW..HIGH", "range of loads")->required();
   add_value(*command, "--lug-height", asked->lug_height, "LOW..HIGH", "range of lug heights")->required();
@@ -181,6 +218,8 @@ void add_failure_map(CLI::App& app, Session& session) {
   command->add_flag("--show-rows", asked->rows, "print every condition run");
   asked->outputs.add_to(*command, {.json = "soilbin-failure-map/1, in SI"});
   asked->soil_bin.add_to(*command);
+  asked->soil_bin.add_coarser_twin_to(*command);
+  for (const char* other : {"--ask", "--batch"}) command->get_option("--coarser-twin")->excludes(other);
   command->add_flag("--dry-run", asked->dry_run, "make nothing; list the runs that come next and what they will cost")
       ->group(grains_heading);
   for (const char* other : {"--ask", "--batch", "--stored", "--report", "--markdown"})

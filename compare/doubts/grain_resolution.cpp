@@ -174,11 +174,13 @@ ResolutionError resolution_error(const Scenario& scenario, const OperatingCondit
   return error;
 }
 
+Estimate error_by_twin(const Estimate& answer, const Estimate& twin, double ratio) {
+  return {(twin.value - answer.value) / (ratio - 1), std::hypot(twin.std_error, answer.std_error) / (ratio - 1)};
+}
+
 ResolutionError error_by_twin(const TractionResult& answer, const TractionResult& twin, double ratio) {
   const auto of = [&](Estimate TractionResult::*channel) {
-    const Estimate &fine = answer.*channel, &coarse = twin.*channel;
-    return Estimate{(coarse.value - fine.value) / (ratio - 1),
-                    std::hypot(coarse.std_error, fine.std_error) / (ratio - 1)};
+    return error_by_twin(answer.*channel, twin.*channel, ratio);
   };
   ResolutionError error{of(&TractionResult::drawbar_pull), of(&TractionResult::torque), of(&TractionResult::sinkage),
                         ""};

@@ -41,6 +41,8 @@ struct ResolutionError {
 /// Of an answer, from its twin on grains of the same sand `ratio` times as large. Both are taken to lie on a straight
 /// line in d, so the error is (twin - answer)/(ratio - 1), and its standard error that of both over ratio - 1.
 ResolutionError error_by_twin(const TractionResult& answer, const TractionResult& twin, double ratio);
+/// Of one of its numbers.
+Estimate error_by_twin(const Estimate& answer, const Estimate& twin, double ratio);
 
 /// What the study found at one slip with grains of one size: means over packings and their errors.
 struct StudiedAnswer {

@@ -9,7 +9,9 @@
 
 namespace soilbin::compare {
 
-VirtualTest map_grains(const InclineMap& map, const dem::DemSettings& settings, const RunKeeping& keeping) {
+VirtualTest map_grains(const InclineMap& map, const dem::DemSettings& asked, const RunKeeping& keeping) {
+  dem::DemSettings settings = asked;
+  settings.highest_lugs = map.factors.at(map_lug_height).upper;
   VirtualTest test;
   test.identity = fmt::format("soil bin, {}, speed {}", name_of(map.incline), map.base.speed);
   for (const auto& [name, value] : inputs_of(settings, map.scenario))
@@ -32,6 +34,11 @@ VirtualTest map_grains(const InclineMap& map, const dem::DemSettings& settings, 
     return measured;
   };
   return test;
+}
+
+VirtualTest coarser_map_grains(InclineMap map, const dem::DemSettings& settings, const RunKeeping& keeping) {
+  map.scenario = with_coarser_grains(map.scenario);
+  return map_grains(map, settings, keeping);
 }
 
 }  // namespace soilbin::compare

@@ -11,8 +11,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double one_sided_95 = 1.645;
-
 /// A grid over the box: every combination of node numbers, the last factor fastest.
 class FactorGrid {
  public:
@@ -151,8 +149,7 @@ std::optional<Box> largest_box(const FailureQuestion& question, const FailureMap
   std::vector<bool> doubtful;
   std::vector<double> bounds;  // on |difference|, a node each
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const Estimate there = map.at(question, grid.values(grid.node(i)));
-    bounds.push_back(std::abs(there.value) + one_sided_95 * there.std_error);
+    bounds.push_back(map.largest_at(question, grid.values(grid.node(i))));
     doubtful.push_back(bounds.back() > question.tolerance);
   }
   const DoubtfulCount count(grid, doubtful);

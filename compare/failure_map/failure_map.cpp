@@ -16,6 +16,24 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double one_sided_95 = 1.645;
+
+/// Rows that have one of their two shares of the load, at coordinates(values) each.
+Samples rows_with(std::optional<Estimate> FailureRow::*share, const std::vector<FailureRow>& rows,
+                  const std::function<VectorXd(const VectorXd&)>& coordinates) {
+  std::vector<VectorXd> x;
+  std::vector<Estimate> y;
+  for (const FailureRow& row : rows)
+    if (row.*share) x.push_back(coordinates(row.values)), y.push_back(*(row.*share));
+  const Index n = static_cast<Index>(x.size());
+  Samples samples{MatrixXd(n, n > 0 ? x.front().size() : 0), VectorXd(n), VectorXd(n)};
+  for (Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    samples.x.row(i) = x[k], samples.y[i] = y[k].value, samples.variance[i] = y[k].std_error * y[k].std_error;
+  }
+  return samples;
+}
+
 Samples samples_of(const FailureQuestion& question, const std::vector<FailureRow>& rows) {
   Samples samples =
       answered_rows(rows, [&](const VectorXd& values) -> VectorXd { return to_unit(question.factors, values); });
@@ -25,17 +43,42 @@ Samples samples_of(const FailureQuestion& question, const std::vector<FailureRow
   return samples;
 }
 
+FailureRow row_at(const FailureQuestion& question, const VectorXd& values) {
+  FailureRow row{values, question.difference(values)};
+  if (question.resolution_error && (row.difference || question.waits()))
+    row.resolution_error = question.resolution_error(values);
+  return row;
+}
+
 void run(const FailureQuestion& question, const FailureMapOptions& options, const VectorXd& unit, FailureMap& map) {
   const std::size_t done = map.rows.size(), all = static_cast<std::size_t>(options.first + options.at_boundary);
   tell(options.watch, fmt::format("condition {} of {}", done + 1, all), done, all);
-  const VectorXd values = from_unit(question.factors, unit);
-  map.rows.push_back({values, question.difference(values)});
+  map.rows.push_back(row_at(question, from_unit(question.factors, unit)));
 }
 
 void learn(const FailureQuestion& question, std::uint64_t seed, FailureMap& map) {
   map.surrogate.clear();
   map.surrogate.emplace_back(samples_of(question, map.rows), SurrogateOptions{.seed = seed});
   map.held_out = map.surrogate[0].mode().leave_one_out();
+  map.resolution_error.clear();
+  const Samples errors = rows_with(&FailureRow::resolution_error, map.rows, [&](const VectorXd& values) -> VectorXd {
+    return to_unit(question.factors, values);
+  });
+  if (errors.size() >= static_cast<Index>(question.factors.size()) + 2)
+    map.resolution_error.emplace_back(errors, SurrogateOptions{.seed = seed});
+}
+
+/// The difference from the grains as they are, and from infinitely fine ones.
+struct BothGrains {
+  Estimate coarse, fine;
+};
+
+BothGrains both_at(const FailureQuestion& question, const FailureMap& map, const VectorXd& values) {
+  const VectorXd unit = to_unit(question.factors, values);
+  const Estimate coarse = map.surrogate.at(0).predict(unit);
+  if (map.resolution_error.empty()) return {coarse, coarse};
+  const Estimate error = map.resolution_error[0].predict(unit);
+  return {coarse, {coarse.value - error.value, std::hypot(coarse.std_error, error.std_error)}};
 }
 
 /// Whether a place was already asked: a condition without an answer is not asked again and again.
@@ -88,17 +131,7 @@ std::vector<VectorXd> boundary_points(const FailureQuestion& question, const Fai
 
 Samples answered_rows(const std::vector<FailureRow>& rows,
                       const std::function<VectorXd(const VectorXd&)>& coordinates) {
-  std::vector<VectorXd> x;
-  std::vector<Estimate> y;
-  for (const FailureRow& row : rows)
-    if (row.difference) x.push_back(coordinates(row.values)), y.push_back(*row.difference);
-  const Index n = static_cast<Index>(x.size());
-  Samples samples{MatrixXd(n, n > 0 ? x.front().size() : 0), VectorXd(n), VectorXd(n)};
-  for (Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    samples.x.row(i) = x[k], samples.y[i] = y[k].value, samples.variance[i] = y[k].std_error * y[k].std_error;
-  }
-  return samples;
+  return rows_with(&FailureRow::difference, rows, coordinates);
 }
 
 bool FailureRow::beyond(double tolerance) const {
@@ -109,8 +142,30 @@ Estimate FailureMap::at(const FailureQuestion& question, const VectorXd& values)
   return surrogate.at(0).predict(to_unit(question.factors, values));
 }
 
+Estimate FailureMap::at_fine(const FailureQuestion& question, const VectorXd& values) const {
+  return both_at(question, *this, values).fine;
+}
+
+Judged FailureMap::judged(const FailureQuestion& question, const VectorXd& values) const {
+  const auto [coarse, fine] = both_at(question, *this, values);
+  const auto of = [&](const Estimate& there) {
+    const double size = std::abs(there.value), reach = one_sided_95 * there.std_error;
+    return size + reach <= question.tolerance  ? Judged::agree
+           : size - reach > question.tolerance ? Judged::differ
+                                               : Judged::undecided;
+  };
+  const bool one_side = coarse.value * fine.value > 0 || of(coarse) == Judged::agree;
+  return of(coarse) == of(fine) && one_side ? of(coarse) : Judged::undecided;
+}
+
+double FailureMap::largest_at(const FailureQuestion& question, const VectorXd& values) const {
+  const auto [coarse, fine] = both_at(question, *this, values);
+  return std::max(std::abs(coarse.value) + one_sided_95 * coarse.std_error,
+                  std::abs(fine.value) + one_sided_95 * fine.std_error);
+}
+
 void add_row(const FailureQuestion& question, const VectorXd& values, FailureMap& map, std::uint64_t seed) {
-  map.rows.push_back({values, question.difference(values)});
+  map.rows.push_back(row_at(question, values));
   if (!question.waits()) learn(question, seed, map);
 }
 

@@ -7,6 +7,7 @@
 //   if (const auto clause = agreement(question, map, {Role::limited, Role::whole})) fmt::print("{}\n", clause->text);
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -15,10 +16,12 @@
 #include "compare/design/factor.hpp"
 #include "compare/design/gaussian_process.hpp"
 #include "compare/recorded/watch.hpp"
+#include "scenario/description.hpp"
 
 namespace soilbin::compare {
 
-/// A share of the load by which two models differ at a condition, analytic less grains, and its standard error.
+/// A share of the load at a condition, and its standard error: by how much two models' pulls differ there, or how far
+/// that is off for the size of the grains.
 using PullDifference = std::function<std::optional<Estimate>(const Eigen::VectorXd& values)>;
 
 /// What is compared: one kind of incline, say, over load, lug height, angle and slip. Several kinds are several
@@ -27,7 +30,9 @@ struct FailureQuestion {
   std::string name;             ///< "longitudinal incline"
   std::vector<Factor> factors;  ///< values in SI
   PullDifference difference;    ///< nothing where either model has no answer
-  double tolerance = 0.10;      ///< share of the load beyond which the models disagree
+  /// The difference less that from infinitely fine grains; nothing where it is not known. Empty: known nowhere.
+  PullDifference resolution_error{};
+  double tolerance = 0.10;  ///< share of the load beyond which the models disagree
   /// Whether differences that were asked for are still to come from elsewhere: then no other is asked for.
   std::function<bool()> waits = [] { return false; };
 };
@@ -46,21 +51,37 @@ struct FailureMapOptions {
 
 /// A condition that was run.
 struct FailureRow {
-  Eigen::VectorXd values;               ///< [SI]
-  std::optional<Estimate> difference;   ///< of both models; nothing where one has no answer
-  bool beyond(double tolerance) const;  ///< |difference| above the tolerance and above 2 standard errors
+  Eigen::VectorXd values;                      ///< [SI]
+  std::optional<Estimate> difference;          ///< of both models; nothing where one has no answer
+  std::optional<Estimate> resolution_error{};  ///< it less that from infinitely fine grains, where that is known
+  bool beyond(double tolerance) const;         ///< |difference| above the tolerance and above 2 standard errors
 };
 
 /// The rows with an answer, at coordinates(values) each.
 Samples answered_rows(const std::vector<FailureRow>& rows,
                       const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& coordinates);
 
+/// What a map says of two models at a condition.
+enum class Judged { agree, differ, undecided };
+constexpr std::array<Word<Judged>, 3> words_of(std::type_identity<Judged>) {
+  return {{{"agree", Judged::agree}, {"differ", Judged::differ}, {"undecided", Judged::undecided}}};
+}
+
 struct FailureMap {
   std::vector<FailureRow> rows;
-  std::vector<Surrogate> surrogate;  ///< one
-  LeaveOneOut held_out;              ///< the surrogate's own test, in shares of the load
+  std::vector<Surrogate> surrogate;         ///< one
+  LeaveOneOut held_out;                     ///< the surrogate's own test, in shares of the load
+  std::vector<Surrogate> resolution_error;  ///< one, or none where too few rows know theirs
   /// Difference at values of the factors, as the surrogate has it.
   Estimate at(const FailureQuestion& question, const Eigen::VectorXd& values) const;
+  /// at() less the resolution error: the difference from infinitely fine grains; at() alone where no row knows it.
+  Estimate at_fine(const FailureQuestion& question, const Eigen::VectorXd& values) const;
+  /// Whether the models agree to the tolerance, or differ by more, with one-sided confidence 95 %, against the grains
+  /// as they are and against infinitely fine ones alike. Where the two don't say the same, the grains are too coarse
+  /// for a decision.
+  Judged judged(const FailureQuestion& question, const Eigen::VectorXd& values) const;
+  /// Largest |difference| that is to be reckoned with there: the upper end of one-sided 95 %, of both kinds of grains.
+  double largest_at(const FailureQuestion& question, const Eigen::VectorXd& values) const;
 };
 
 /// Runs one more condition and learns from it.
@@ -87,8 +108,8 @@ struct AgreementClause {
   std::optional<Eigen::VectorXd> witness{};  ///< the row with it
 };
 
-/// The box of the largest share of the limited and bounded factors' ranges within which |difference| stays
-/// below the tolerance with one-sided confidence 95 % at every node of a grid of `nodes` a factor. roles: one a factor.
+/// The box of the largest share of the limited and bounded factors' ranges in which the models are judged to agree
+/// (FailureMap::judged) at every node of a grid of `nodes` a factor. roles: one a factor.
 /// The box's most doubtful node is run (and added to the map) and the box found again, until that node is a row that
 /// agrees, at most `rounds` times: so a clause rests on the row that was likeliest to overturn it. Nothing where there
 /// is no such box (of limited factors: where the models may disagree in the lower corner), or no row lies in it.

@@ -5,8 +5,9 @@
 
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/model.hpp"
-#include "compare/calibrate/experiment_store.hpp"
 #include "compare/design/space_filling.hpp"
+#include "compare/doubts/grain_resolution.hpp"
+#include "compare/recorded/record.hpp"
 #include "compare/sweep/answers.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
@@ -20,9 +21,67 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-std::optional<double> analytic_pull(const InclineMap& map, const Model& model, const VectorXd& values) {
-  const Answer answer = ask(model, scenario_at(map, values), condition_at(map, values));
-  return answer.result ? std::optional(answer.result->drawbar_pull.value) : std::nullopt;
+/// A drawbar pull [N] at values of the factors; nothing where there is no answer.
+using PullAt = std::function<std::optional<Estimate>(const VectorXd&)>;
+
+PullAt quick_pull(const InclineMap& map, ModelKind kind) {
+  return [map, model = std::shared_ptr(make_model(kind)), kind](const VectorXd& values) -> std::optional<Estimate> {
+    Scenario scenario = scenario_at(map, values);
+    if (kind != ModelKind::bekker_wong) scenario.effects.clear();
+    const Answer answer = ask(*model, scenario, condition_at(map, values));
+    return answer.result ? std::optional(Estimate{answer.result->drawbar_pull.value, 0}) : std::nullopt;
+  };
+}
+
+using RunAt = std::function<std::optional<Experiment>(const VectorXd&)>;
+
+/// A run with an answer.
+RunAt runs_of(const VirtualTest& grains, ExperimentStore& store, std::uint64_t packing) {
+  return [&grains, &store, packing](const VectorXd& values) -> std::optional<Experiment> {
+    std::optional<Experiment> run = obtain(grains, {values, packing}, store);
+    if (run && run->results.empty()) run.reset();
+    return run;
+  };
+}
+
+/// By the twin of a run: the grains' pull less that of infinitely fine ones.
+PullAt error_by_twins(const MapGrains& grains) {
+  return [grains, fine = runs_of(*grains.runs, *grains.store, grains.packing),
+          coarse = runs_of(*grains.coarser, *grains.store, grains.packing)](const VectorXd& values) {
+    const std::optional<Experiment> run = grains.waits() ? std::nullopt : fine(values);
+    const std::optional<Experiment> twin = run || grains.waits() ? coarse(values) : std::nullopt;
+    if (!run || !twin) return std::optional<Estimate>();
+    return std::optional(error_by_twin(run->results.front(), twin->results.front(), coarser_by));
+  };
+}
+
+/// Carried over from the study of grain sizes, as far as that reaches.
+PullAt error_by_study(const InclineMap& map, const MapGrains& grains) {
+  constexpr std::size_t sinkage = 2;  // of grain_channels()
+  return [map, grains, runs = runs_of(*grains.runs, *grains.store, grains.packing)](const VectorXd& values) {
+    if (grains.waits() || !map.scenario.soil.granular) return std::optional<Estimate>();
+    const std::optional<Experiment> run = runs(values);
+    if (!run) return std::optional<Estimate>();
+    const ResolutionError error =
+        resolution_error(scenario_at(map, values), condition_at(map, values), run->results.at(sinkage).value);
+    return error.known() ? std::optional(error.drawbar_pull) : std::nullopt;
+  };
+}
+
+/// What a model needs of the map's soil and wheel.
+void check_model(const InclineMap& map, ModelKind kind) {
+  const Soil& soil = map.scenario.soil;
+  if (kind == ModelKind::bekker_wong && !soil.semi_empirical)
+    throw InputError(
+        "soil '" + soil.name +
+        "' has no semi-empirical values for the analytic model\n  hint: soilbin bevameter gives them from the grains");
+  if (kind == ModelKind::rft && !soil.semi_empirical && !soil.resistive_force)
+    throw InputError("soil '" + soil.name + "' has no values for the model rft\n  hint: a section resistive_force");
+  if (kind != ModelKind::bekker_wong && map.factors.at(map_lug_height).upper > 0 &&
+      !(map.scenario.tire.lugs.count && map.scenario.tire.lugs.thickness))
+    throw InputError("tire '" + map.scenario.tire.name +
+                     "' tells no count and thickness of lugs, which runs with lugs need\n  hint: a lugged tire; the "
+                     "map varies its lugs' height");
 }
 
 /// Load number, lug height over static sinkage, tan of the angle, slip.
@@ -78,30 +137,36 @@ std::vector<Target> grain_channels() {
   return targets;
 }
 
-FailureQuestion failure_question(const InclineMap& map, const VirtualTest& grains, ExperimentStore& store,
-                                 std::uint64_t seed, double tolerance) {
-  if (!map.scenario.soil.semi_empirical)
-    throw InputError(
-        "soil '" + map.scenario.soil.name +
-        "' has no semi-empirical values for the analytic model\n  hint: soilbin bevameter gives them from the grains");
-  if (map.factors.at(map_lug_height).upper > 0 && !(map.scenario.tire.lugs.count && map.scenario.tire.lugs.thickness))
-    throw InputError("tire '" + map.scenario.tire.name +
-                     "' tells no count and thickness of lugs, which runs with lugs need\n  hint: a lugged tire; the "
-                     "map varies its lugs' height");
+FailureQuestion failure_question(const InclineMap& map, const MapGrains& grains, double tolerance) {
+  if (map.of == map.against)
+    throw InputError("a map of a model against itself\n  hint: --of and --against name two models");
+  check_model(map, map.of), check_model(map, map.against);
   FailureQuestion question;
   question.name = name_of(map.incline);
   question.factors = map.factors;
   question.tolerance = tolerance;
-  question.waits = [&grains] { return grains.waits(); };
-  question.difference = [map, &grains, &store, seed, model = std::shared_ptr(make_model(ModelKind::bekker_wong))](
-                            const VectorXd& values) -> std::optional<Estimate> {
-    const std::optional<double> analytic = analytic_pull(map, *model, values);
-    if (!analytic) return std::nullopt;
-    const std::optional<Experiment> run = obtain(grains, {values, seed}, store);
-    if (!run || run->results.empty()) return std::nullopt;
-    const double load = values[map_load];
-    return Estimate{(*analytic - run->results.front().value) / load, run->results.front().std_error / load};
+  question.waits = [grains] { return grains.waits(); };
+  const auto pull = [&](ModelKind kind) -> PullAt {
+    if (kind != ModelKind::dem) return quick_pull(map, kind);
+    return [runs = runs_of(*grains.runs, *grains.store, grains.packing)](const VectorXd& values) {
+      const std::optional<Experiment> run = runs(values);
+      return run ? std::optional(run->results.front()) : std::nullopt;
+    };
   };
+  question.difference = [of = pull(map.of), against = pull(map.against)](const VectorXd& values) {
+    const std::optional<Estimate> first = of(values), second = first ? against(values) : std::nullopt;
+    if (!second) return std::optional<Estimate>();
+    const double load = values[map_load];
+    return std::optional(
+        Estimate{(first->value - second->value) / load, std::hypot(first->std_error, second->std_error) / load});
+  };
+  if (grains.runs)
+    question.resolution_error = [of_pull = grains.coarser ? error_by_twins(grains) : error_by_study(map, grains),
+                                 sign = map.of == ModelKind::dem ? 1.0 : -1.0](const VectorXd& values) {
+      const std::optional<Estimate> error = of_pull(values);
+      const double load = values[map_load];
+      return error ? std::optional(Estimate{sign * error->value / load, error->std_error / load}) : std::nullopt;
+    };
   return question;
 }
 

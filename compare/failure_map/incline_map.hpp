@@ -1,6 +1,6 @@
-// A failure map over load, lug height, angle and slip, for one kind of incline: the analytic model against runs of
-// grains. Runs are kept in a store of experiments, so that a map that was stopped goes on, and is drawn again without a
-// run.
+// A failure map over load, lug height, angle and slip, for one kind of incline: a quick model against runs of grains,
+// or two quick models. Runs are kept in a store of experiments, so that a map that was stopped goes on, and is drawn
+// again without a run.
 #pragma once
 
 #include "compare/calibrate/experiment_store.hpp"
@@ -23,6 +23,7 @@ struct InclineMap {
   Scenario scenario;        ///< of its tire all but the lugs' height is kept; count and thickness are needed
   OperatingCondition base;  ///< speed, frames: what the factors don't set
   Incline incline = Incline::longitudinal;
+  ModelKind of = ModelKind::bekker_wong, against = ModelKind::dem;
   std::vector<Factor> factors;  ///< by MapFactor [N], [m], [rad], [-]
 };
 
@@ -33,12 +34,21 @@ OperatingCondition condition_at(const InclineMap& map, const Eigen::VectorXd& va
 /// What a run of grains is asked for; the first is the drawbar pull.
 std::vector<Target> grain_channels();
 
-/// Drawbar pull of the analytic model (with the scenario's effects) less that of the grains over the load. The error is
-/// that of the run of grains on one packing: the soil's values are taken as declared, and the scatter between packings
-/// is for the surrogate to find. What obtain gives nothing for has no answer.
-/// `grains` and `store` must outlive the question. seed: of the packing.
-FailureQuestion failure_question(const InclineMap& map, const VirtualTest& grains, ExperimentStore& store,
-                                 std::uint64_t seed, double tolerance);
+/// Who answers for the grains of a map. What `runs` and the store have nothing for has no answer.
+struct MapGrains {
+  const VirtualTest* runs = nullptr;     ///< none where the map asks no grains
+  const VirtualTest* coarser = nullptr;  ///< the runs with grains coarser_by times as large; none: not made
+  ExperimentStore* store = nullptr;
+  std::uint64_t packing = 1;  ///< seed of the bed
+  bool waits() const { return (runs && runs->waits()) || (coarser && coarser->waits()); }
+};
+
+/// Drawbar pull of the map's first model (the analytic one with the scenario's effects) less that of the second, over
+/// the load. The error is that of the run of grains on one packing: the soil's values are taken as declared, and the
+/// scatter between packings is for the surrogate to find. The resolution error is that of the grains, by their coarser
+/// twins, else by the study of grain sizes as far as that reaches. What `grains` points to must outlive the question.
+/// Throws InputError for a wheel or soil that lacks what a model needs, and for two models that are one.
+FailureQuestion failure_question(const InclineMap& map, const MapGrains& grains, double tolerance);
 
 /// A condition that the map had not seen when it predicted it.
 struct FreshCheck {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "compare/doubts/doubts.hpp"
@@ -25,7 +26,7 @@ std::vector<AgreementClause> agreements(const FailureQuestion& question, Failure
   return clauses;
 }
 
-/// Of the analytic model and the grains at the conditions that were run, with the highest lugs.
+/// Of both models at the conditions that were run, with the highest lugs.
 Doubts doubts_at_rows(const FailureMapResult& result) {
   Case question;
   std::vector<Eigen::VectorXd> rows;
@@ -36,49 +37,59 @@ Doubts doubts_at_rows(const FailureMapResult& result) {
   if (rows.empty()) return {};
   const auto height = [](const Eigen::VectorXd& values) { return values[map_lug_height]; };
   question.scenario = scenario_at(result.map, *std::ranges::max_element(rows, {}, height));
-  question.study.models = {{ModelKind::bekker_wong, question.scenario.effects, ""}};
+  for (const ModelKind kind : {result.map.of, result.map.against})
+    if (kind == ModelKind::bekker_wong)
+      question.study.models.push_back({kind, question.scenario.effects, ""});
+    else if (kind == ModelKind::rft)
+      question.study.models.push_back({kind, {}, ""});
   question.scenario.effects.clear();
   const std::vector<ModelAnswers> study = run_study(question);
-  question.study.models.push_back({ModelKind::dem, {}, ""});
+  if (result.map.of == ModelKind::dem || result.map.against == ModelKind::dem)
+    question.study.models.push_back({ModelKind::dem, {}, ""});
   return doubts(question, study);
 }
 
 }  // namespace
 
-FailureMapResult learn_map(const InclineMap& map, const VirtualTest& grains, ExperimentStore& store,
-                           const MapLearning& how) {
+FailureMapResult learn_map(const InclineMap& map, const MapGrains& grains, const MapLearning& how) {
   FailureMapResult result;
   result.map = map;
-  result.question = failure_question(result.map, grains, store, how.packing, how.tolerance);
+  result.question = failure_question(result.map, grains, how.tolerance);
   result.rows = map_failures(result.question, how.runs);
   if (grains.waits()) return result;
   result.clauses = agreements(result.question, result.rows, how.rounds);
   if (grains.waits()) return result;
   result.coordinates = compare_coordinates(result.map, result.rows);
   result.checks = check_fresh(result.question, result.rows, how.fresh, how.runs.seed);
+  result.by_twins = grains.coarser != nullptr;
+  result.shares = shares_of(result.question, result.rows);
   return result;
 }
 
-Doubts doubts_of(const FailureMapResult& result, const VirtualTest& grains, const ExperimentStore& store) {
+Doubts doubts_of(const FailureMapResult& result, const MapGrains& grains) {
   Doubts all = doubts_at_rows(result);
-  if (const std::size_t older = store.of_other_engines(grains); older > 0)
+  if (const std::size_t older = grains.runs ? grains.store->of_other_engines(*grains.runs) : 0; older > 0)
     all.push_back({DoubtKind::earlier_engine, {older}});
   return all;
 }
 
-double share_beyond(const FailureMapResult& result) {
+MapShares shares_of(const FailureQuestion& question, const FailureMap& map) {
   constexpr int nodes = 9;
-  const std::vector<Factor>& factors = result.question.factors;
-  std::size_t all = 1, beyond = 0;
+  const std::vector<Factor>& factors = question.factors;
+  std::size_t all = 1;
   for (std::size_t j = 0; j < factors.size(); ++j) all *= nodes;
+  std::size_t beyond = 0;
+  std::array<std::size_t, 3> judged{};  // by Judged
   for (std::size_t i = 0; i < all; ++i) {
     Eigen::VectorXd values(static_cast<Eigen::Index>(factors.size()));
     std::size_t rest = i;
     for (std::size_t j = 0; j < factors.size(); ++j, rest /= nodes)
       values[j] = level_value(factors[j], static_cast<int>(rest % nodes), nodes);
-    beyond += std::abs(result.rows.at(result.question, values).value) > result.question.tolerance;
+    beyond += std::abs(map.at(question, values).value) > question.tolerance;
+    ++judged[static_cast<std::size_t>(map.judged(question, values))];
   }
-  return static_cast<double>(beyond) / static_cast<double>(all);
+  const auto share = [all](std::size_t count) { return static_cast<double>(count) / static_cast<double>(all); };
+  return {share(beyond), share(judged[0]), share(judged[1]), share(judged[2])};
 }
 
 }  // namespace soilbin::compare

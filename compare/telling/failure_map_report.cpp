@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/doubts/grain_resolution.hpp"
 #include "compare/failure_map/learned_map.hpp"
+#include "compare/recorded/record.hpp"
 #include "compare/report/heat_map.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answers.hpp"
+#include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/reports.hpp"
 
@@ -60,6 +61,32 @@ std::string box_in_words(const FailureQuestion& question, const AgreementClause&
                      100 * clause.largest);
 }
 
+/// "the analytic pull", "the grains' pull".
+std::string pull_of(ModelKind kind) {
+  return kind == ModelKind::bekker_wong ? "the analytic pull"
+         : kind == ModelKind::dem       ? "the grains' pull"
+                                        : "the pull by resistive force theory";
+}
+
+/// "of the grains'", behind "within 10 % of the load".
+std::string from_that_of(ModelKind kind) {
+  return kind == ModelKind::bekker_wong ? "of the analytic one"
+         : kind == ModelKind::dem       ? "of the grains'"
+                                        : "of that by resistive force theory";
+}
+
+/// "analytic less grains".
+std::string less_in_words(const InclineMap& map) {
+  const auto one = [](ModelKind kind) {
+    return kind == ModelKind::bekker_wong ? "analytic" : kind == ModelKind::dem ? "grains" : "resistive force theory";
+  };
+  return fmt::format("{} less {}", one(map.of), one(map.against));
+}
+
+std::string in_words(Judged judged) {
+  return judged == Judged::agree ? "the models agree" : judged == Judged::differ ? "the models differ" : "not decided";
+}
+
 std::string in_percent(const Estimate& share) { return number({100 * share.value, 100 * share.std_error}); }
 
 const FailureRow* worst_of(const FailureMap& map) {
@@ -83,7 +110,7 @@ std::string rows_sentence(const FailureMapResult& result) {
   std::string text =
       fmt::format("{}: {} of {} conditions run differ by more than {:.3g} % of the load and two standard errors",
                   result.question.name, high + low, answered, 100 * tolerance);
-  if (high + low > 0) text += ": the analytic pull is " + side;
+  if (high + low > 0) text += fmt::format(": {} is {}", pull_of(result.map.of), side);
   if (answered < result.rows.rows.size()) text += fmt::format("; {} not answered", result.rows.rows.size() - answered);
   if (const FailureRow* worst = worst_of(result.rows))
     text += fmt::format("; largest error {} % of the load, at {}", in_percent(*worst->difference),
@@ -162,44 +189,24 @@ std::string checks_sentence(const FailureMapResult& result) {
       found, 100 * rms_of(result.checks), within, right);
 }
 
-/// Whether a row lies where a clause says that the models agree; where there is no clause, any row does.
-bool in_a_clause(const FailureMapResult& result, const VectorXd& values) {
-  return result.clauses.empty() || std::ranges::any_of(result.clauses, [&](const AgreementClause& clause) {
-           for (std::size_t j = 0; j < clause.lower.size(); ++j)
-             if (const double value = values[static_cast<Index>(j)]; value < clause.lower[j] || value > clause.upper[j])
-               return false;
-           return true;
-         });
-}
-
-/// By how much the grains' own pull is off there for their size, where the study of grain sizes reaches; "" where that
-/// is little.
+/// By how much the grains' own pull is off for their size, and how well that is known; "" without grains.
 std::string grains_sentence(const FailureMapResult& result) {
-  constexpr double worth_a_line = 0.01;  // of the load (chosen)
-  if (!result.map.scenario.soil.granular) return "";
-  const auto model = make_model(ModelKind::bekker_wong);
-  double sum = 0.0, squares = 0.0;
-  std::size_t known = 0, asked = 0;
+  if (result.map.of != ModelKind::dem && result.map.against != ModelKind::dem) return "";
+  if (result.rows.resolution_error.empty())
+    return "Error of resolution of the grains: not known; the verdicts are about these grains, and not about sand.";
+  double squares = 0.0, variance = 0.0, known = 0.0, answered = 0.0;
   for (const FailureRow& row : result.rows.rows) {
-    if (!row.difference || !in_a_clause(result, row.values)) continue;
-    const Scenario scenario = scenario_at(result.map, row.values);
-    const OperatingCondition at = condition_at(result.map, row.values);
-    const Answer answer = ask(*model, scenario, at);
-    if (!answer.result) continue;
-    ++asked;
-    const ResolutionError error =
-        resolution_error(scenario, at, answer.result->sinkage.value, SinkageOf::another_model);
-    if (!error.known()) continue;
-    const double share = error.drawbar_pull.value / at.load;
-    ++known, sum += share, squares += share * share;
+    answered += row.difference.has_value();
+    if (!row.resolution_error) continue;
+    const Estimate error = result.rows.resolution_error[0].predict(to_unit(result.question.factors, row.values));
+    squares += std::pow(error.value, 2), variance += std::pow(error.std_error, 2), known += 1;
   }
-  const double rms = known > 0 ? std::sqrt(squares / static_cast<double>(known)) : 0.0;
-  if (rms < worth_a_line) return "";
   return fmt::format(
-      "{} the grains' own pull is too {} by about {:.0f} % of the load, since they are coarse (RMS of {} of {} "
-      "conditions; the others are not studied).",
-      result.clauses.empty() ? "In this range" : "Where the models agree,", sum > 0.0 ? "large" : "small", 100 * rms,
-      known, asked);
+      "Error of resolution of the grains: {:.1f} ± {:.1f} % of the load (RMS over {:.0f} of {:.0f} conditions), {}. "
+      "Where it could turn the verdict, the map says 'not decided'.",
+      100 * std::sqrt(squares / known), 100 * std::sqrt(variance / known), known, answered,
+      result.by_twins ? fmt::format("by twins with grains {} times as large", coarser_by)
+                      : "carried over from the study of grain sizes; --coarser-twin finds the map's own");
 }
 
 constexpr int map_cells = 7;  // of a heat map, along and up
@@ -211,28 +218,29 @@ std::string in_units(const Factor& factor, double value) {
 HeatCell cell_at(const FailureMapResult& result, const VectorXd& values) {
   const std::vector<Factor>& factors = result.question.factors;
   const Estimate there = result.rows.at(result.question, values);
-  const double tolerance = result.question.tolerance, size = std::abs(there.value);
+  const Judged judged = result.rows.judged(result.question, values);
   const double percent = std::round(100 * there.value);
-  HeatCell cell{100 * there.value, percent == 0 ? "0" : fmt::format("{:+.0f}", percent), "", true};
-  cell.counts = size - 1.645 * there.std_error > tolerance;
+  HeatCell cell{100 * there.value, percent == 0 ? "0" : fmt::format("{:+.0f}", percent), "", judged == Judged::differ};
+  if (judged == Judged::undecided) cell.text += "?";
   for (std::size_t j = 0; j < factors.size(); ++j)
     cell.meaning += fmt::format("{}{} {}", j == 0 ? "" : ", ", factors[j].name, in_units(factors[j], values[j]));
-  cell.meaning += fmt::format(": {} % of the load, {}", number({100 * there.value, 100 * there.std_error}),
-                              cell.counts                                  ? "the models differ"
-                              : size + 1.645 * there.std_error < tolerance ? "the models agree"
-                                                                           : "the map cannot tell");
+  cell.meaning += fmt::format(": {} % of the load", in_percent(there));
+  if (!result.rows.resolution_error.empty())
+    cell.meaning +=
+        fmt::format(", from infinitely fine grains {} %", in_percent(result.rows.at_fine(result.question, values)));
+  cell.meaning += ", " + in_words(judged);
   return cell;
 }
 
 /// Difference [% of the load] over load (across) and angle (up), by the map, at these lug height [m] and slip; cells
-/// count where the map is sure, with one-sided confidence 95 %, that the tolerance is passed.
+/// count where the models are judged to differ.
 HeatMap heat_map_of(const FailureMapResult& result, double lug_height, double slip) {
   const std::vector<Factor>& factors = result.question.factors;
   const Factor &load = factors[map_load], &angle = factors[map_angle];
   HeatMap map;
   map.title = fmt::format("{} {}, {} {}", factors[map_lug_height].name, in_units(factors[map_lug_height], lug_height),
                           factors[map_slip].name, in_units(factors[map_slip], slip));
-  map.subtitle = "analytic less grains [% of the load]";
+  map.subtitle = less_in_words(result.map) + " [% of the load]";
   map.x_title = heading(load.name, load.unit), map.y_title = heading(angle.name, angle.unit);
   map.limit = 300 * result.question.tolerance;
   for (int c = 0; c < map_cells; ++c)
@@ -296,12 +304,21 @@ SlidingMap sliding_map_of(const FailureMapResult& result) {
   return map;
 }
 
+std::string decided_sentence(const FailureMapResult& result) {
+  const MapShares& shares = result.shares;
+  return fmt::format(
+      "Decided with 95 % confidence: within {:.3g} % of the load in {:.0f} % of the range, beyond it in "
+      "{:.0f} %; not decided in {:.0f} %.",
+      100 * result.question.tolerance, 100 * shares.agree, 100 * shares.differ, 100 * shares.undecided);
+}
+
 /// Sentences, the most important first: how much of the box disagrees and to which side, where the models agree, how
 /// well the map knows, what dimensionless groups do, what fresh conditions showed.
 std::vector<std::string> map_summary(const FailureMapResult& result) {
   std::vector<std::string> text = {rows_sentence(result)};
   text.push_back(fmt::format("The error exceeds {:.3g} % of the load in {:.0f} % of the range.",
-                             100 * result.question.tolerance, 100 * share_beyond(result)));
+                             100 * result.question.tolerance, 100 * result.shares.beyond));
+  text.push_back(decided_sentence(result));
   for (const AgreementClause& clause : result.clauses)
     text.push_back(fmt::format("{}: within {:.3g} % of the load {}.", result.question.name,
                                100 * result.question.tolerance, box_in_words(result.question, clause)));
@@ -325,16 +342,16 @@ std::vector<std::pair<std::string, std::string>> trust_in_words(const FailureMap
       "Trust it",
       result.clauses.empty()
           ? fmt::format("Nowhere: no part of the range is within {:.3g} % of the load with 95 % confidence.", tolerance)
-          : fmt::format("The analytic pull is within {:.3g} % of the load of the grains' with 95 % confidence {}",
-                        tolerance, boxes));
+          : fmt::format("{} is within {:.3g} % of the load {} with 95 % confidence {}", capital(pull_of(result.map.of)),
+                        tolerance, from_that_of(result.map.against), boxes));
   if (!grains.empty()) parts.back().second += " " + grains;
-  const double beyond = 100 * share_beyond(result);
+  const double beyond = 100 * result.shares.beyond;
   parts.emplace_back("Do not trust it",
                      fmt::format("The error exceeds {:.3g} % of the load in {:.0f} % of the range. {}", tolerance,
                                  beyond, capital(rows_sentence(result))));
   std::string sure = error_sentence(result);
   if (const std::string fresh = checks_sentence(result); !fresh.empty()) sure += " " + fresh;
-  parts.emplace_back("How sure", sure);
+  parts.emplace_back("How sure", decided_sentence(result) + " " + sure);
   return parts;
 }
 
@@ -343,10 +360,9 @@ std::string in_short(const FailureMapResult& result) {
   const Tire& tire = result.map.scenario.tire;
   const double tolerance = 100 * result.question.tolerance;
   return fmt::format(
-      "The analytic pull is within {:.3g} % of the load of the grains' in {:.0f} % of the range. Set the sliders to "
-      "your "
-      "lugs and slip{}.",
-      tolerance, 100 * (1 - share_beyond(result)),
+      "{} is within {:.3g} % of the load {} in {:.0f} % of the range. {} Set the sliders to your lugs and slip{}.",
+      capital(pull_of(result.map.of)), tolerance, from_that_of(result.map.against), 100 * (1 - result.shares.beyond),
+      decided_sentence(result),
       tire.lugs.height > 0.0
           ? fmt::format(" (they start at those of {}, {:.3g} mm)", tire.name, 1000 * tire.lugs.height)
           : "");
@@ -360,9 +376,11 @@ std::vector<std::string> details(const FailureMapResult& result) {
 }
 
 Table rows_table(const FailureMapResult& result) {
-  Table table{"Every condition run, in order: analytic less grains, share of the load", {}};
+  Table table{fmt::format("Every condition run, in order: {}, share of the load", less_in_words(result.map)), {}};
+  const bool twins = !result.rows.resolution_error.empty();
   for (const Factor& factor : result.question.factors) table.header.push_back(heading(factor.name, factor.unit));
   table.header.insert(table.header.end(), {"difference [%]", "cross-validated [%]", "beyond"});
+  if (twins) table.header.insert(table.header.end(), {"error of resolution [%]", "by the map"});
   Index k = 0;
   for (const FailureRow& row : result.rows.rows) {
     std::vector<TableCell> cells;
@@ -376,6 +394,9 @@ Table rows_table(const FailureMapResult& result) {
     } else {
       cells.insert(cells.end(), {"-", "-", "not answered"});
     }
+    if (twins)
+      cells.insert(cells.end(), {row.resolution_error ? in_percent(*row.resolution_error) : "-",
+                                 in_words(result.rows.judged(result.question, row.values))});
     table.add(std::move(cells));
   }
   return table;
@@ -405,16 +426,21 @@ Table checks_table(const FailureMapResult& result) {
 
 Json failure_map_json(const FailureMapResult& result) {
   const std::vector<Factor>& factors = result.question.factors;
+  const MapShares& shares = result.shares;
   Json document = {
       {"format", "soilbin-failure-map/1"},      {"incline", name_of(result.map.incline)},
       {"tolerance", result.question.tolerance}, {"summary", map_summary(result)},
-      {"share_beyond", share_beyond(result)},   {"cross_validated_error", finite(result.rows.held_out.rms())}};
+      {"share_beyond", shares.beyond},          {"cross_validated_error", finite(result.rows.held_out.rms())}};
+  document["of"] = word_of(result.map.of), document["against"] = word_of(result.map.against);
+  document["shares"] = {{"agree", shares.agree}, {"differ", shares.differ}, {"undecided", shares.undecided}};
   Json ranges = Json::array(), rows = Json::array(), groups = Json::array(), checks = Json::array();
   for (const Factor& factor : factors)
     ranges.push_back({{"name", factor.name}, {"lower", factor.lower}, {"upper", factor.upper}});
   for (const FailureRow& row : result.rows.rows) {
     Json json = values_json(factors, row.values);
     json["difference"] = where_known(row.difference), json["beyond"] = row.beyond(result.question.tolerance);
+    json["resolution_error"] = where_known(row.resolution_error);
+    json["judged"] = word_of(result.rows.judged(result.question, row.values));
     rows.push_back(std::move(json));
   }
   for (const Coordinates& c : result.coordinates)
@@ -443,8 +469,11 @@ std::vector<ReportPart> corners(const FailureMapResult& result) {
 }  // namespace
 
 Report report_on(const FailureMapResult& result, const FailureMapAbout& about) {
+  const auto the = [](ModelKind kind) {
+    return std::string(kind == ModelKind::bekker_wong ? "the " : "") + model_in_words(std::string(word_of(kind)));
+  };
   Report report{"Where may I trust the quick estimate?",
-                fmt::format("{}: the analytic wheel against grains, {} on {}", about.name,
+                fmt::format("{}: {} against {}, {} on {}", about.name, the(result.map.of), the(result.map.against),
                             result.map.scenario.tire.name, in_words(result.map.scenario.soil))};
   const std::string grains = grains_sentence(result);
   std::vector<std::string> first = {in_short(result)};
@@ -453,10 +482,10 @@ Report report_on(const FailureMapResult& result, const FailureMapAbout& about) {
   report.parts.push_back(
       {.content = Html{sliding_map_html(
            sliding_map_of(result),
-           "Drawbar pull, analytic less grains, in per cent of the load, as the map has it; loads "
-           "across, angles up. Blue: the analytic pull is too low; orange: too high. Bold: the map is "
-           "sure that the models differ by more than the tolerance. Faint: they agree, or the map "
-           "cannot tell; each cell says which.")},
+           fmt::format("Drawbar pull, {}, in per cent of the load, as the map has it; loads across, angles up. Blue: "
+                       "{} is too low; orange: too high. Bold: the models differ by more than the tolerance; faint: "
+                       "they agree; with a question mark: not decided.",
+                       less_in_words(result.map), pull_of(result.map.of)))},
        .told = Told::on_pages,
        .section = "The map",
        .anchor = "map",

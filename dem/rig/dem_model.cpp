@@ -24,7 +24,9 @@ BedRecipe DemModel::recipe(const Scenario& scenario) const {
   recipe.size = settings_.size;
   if (scenario.bin) recipe.size.depth = scenario.bin->depth, recipe.size.width = scenario.bin->width;
   recipe.packing = settings_.packing;
-  recipe.grading = grading_for(scenario.tire, recipe.soil, settings_.graded);
+  Tire on_bed = scenario.tire;
+  on_bed.lugs.height = std::max(on_bed.lugs.height, settings_.highest_lugs);
+  recipe.grading = grading_for(on_bed, recipe.soil, settings_.graded);
   recipe.settling_friction = settings_.settling_friction;
   recipe.settled_by = settings_.settled_by;
   recipe.periodic = settings_.rig.patch;

@@ -22,6 +22,7 @@ struct DemSettings {
   double settling_friction = 1;               ///< as in BedRecipe
   SettledBy settled_by = SettledBy::soilbin;  ///< lammps needs `lammps`
   double graded = 1;           ///< grains below and beside the track up to so many times coarser (Grading)
+  double highest_lugs = 0;     ///< height of lugs for which a graded bed is fine too, where the tire's are lower [m]
   std::filesystem::path beds;  ///< folder that keeps beds; empty: none is kept on disk
   Rig rig;
   std::optional<double> bed_dt;  ///< step with which beds settle [s], 0 as in BedRecipe; without one the rig's

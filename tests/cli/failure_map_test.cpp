@@ -58,10 +58,11 @@ TEST(SlowFailureMapCommand, TellsWhereThePapersTireParts) {
       page.string() + "'");
   ASSERT_EQ(r.status, 0) << r.err;
   const std::string html = text_of(page);  // "within 10 %" is of these grains, whose own error stands beside it
-  EXPECT_LT(html.find("own pull is too large by about 1"), html.find("id=\"map\""));
+  EXPECT_LT(html.find("Error of resolution of the grains: "), html.find("id=\"map\""));
   EXPECT_THAT(html, HasSubstr("(they start at those of paper-lugged, 11 mm)"));
   const nlohmann::json map = r.json();
   EXPECT_LT(map["cross_validated_error"].get<double>(), 0.03);
+  EXPECT_GT(map["shares"]["undecided"].get<double>(), 0.9);  // grains of 40 mm, 16 % of the load off for their size
   const auto mean = [&](const std::string& name, double from, double to) {
     double sum = 0.0, count = 0.0;
     for (const auto& row : map["rows"])
@@ -92,6 +93,7 @@ TEST(FailureMapCommand, ADryRunListsTheRunsThatComeNext) {
   ASSERT_EQ(plan["runs"].size(), 6U);
   EXPECT_EQ(plan["recorded"], 0);
   EXPECT_THAT(plan["runs"].at(0)["tire"].get<std::string>(), HasSubstr("lugs of "));
+  EXPECT_EQ(soilbin(map + "--coarser-twin --json").json()["runs"].size(), 12U);
   EXPECT_GT(plan["core_hours_left"].get<double>(), 0.0);
   EXPECT_FALSE(fs::exists(scratch / "store.json"));
   const Outcome narrow = soilbin(map + "--bed-width 0.3m");
@@ -107,7 +109,9 @@ TEST(FailureMapCommand, NamesWhatIsWrong) {
                flags)
         .err;
   };
-  EXPECT_THAT(error("--incline sideways --load 1N..2N --angle 0deg..1deg"), HasSubstr("unknown kind 'sideways'"));
+  EXPECT_THAT(error("--incline sideways --load 1N..2N --angle 0deg..1deg"), HasSubstr("unknown word 'sideways'"));
+  EXPECT_THAT(error("--against rft --of rft --load 1N..2N --angle 0deg..1deg"), HasSubstr("a model against itself"));
+  EXPECT_THAT(error("--against rft --patch --load 1N..2N --angle 0deg..1deg"), HasSubstr("--patch has no effect"));
   EXPECT_THAT(error("--load 100N..40N --angle 0deg..1deg"), HasSubstr("below the upper"));
   EXPECT_THAT(error("--load 1N..2N --angle 15deg"), HasSubstr("expected LOW..HIGH"));
   const Outcome none = soilbin(

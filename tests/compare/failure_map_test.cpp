@@ -98,6 +98,37 @@ TEST(SlowFailureMap, ABoxWithTwoEndsWhereTheCornerDisagrees) {
   EXPECT_GE(in_box, 5);
 }
 
+// The models are 2 % apart, well within the 10 %; but the grains' own error grows with slip to 24 % at 0.6, so beyond a
+// slip of 0.3 finer grains could say otherwise.
+TEST(SlowFailureMap, DecidesOnlyWhatGrainsOfAnySizeSay) {
+  FailureQuestion q = map_question();
+  q.difference = [](const VectorXd&) -> std::optional<Estimate> { return Estimate{0.02, 0.002}; };
+  q.resolution_error = [](const VectorXd& v) -> std::optional<Estimate> { return Estimate{-0.4 * v[3], 0.004}; };
+  const FailureMap map = map_failures(q, {.first = 24, .at_boundary = 0});
+  const auto at_slip = [](double slip) { return (VectorXd(4) << 4000, 0.01, 5 * degree, slip).finished(); };
+  EXPECT_NEAR(map.at(q, at_slip(0.5)).value, 0.02, 0.003);
+  EXPECT_NEAR(map.at_fine(q, at_slip(0.5)).value, 0.22, 0.01);
+  EXPECT_EQ(map.judged(q, at_slip(0.1)), Judged::agree);
+  EXPECT_EQ(map.judged(q, at_slip(0.5)), Judged::undecided);
+  FailureMap boxes = map;
+  const auto clause = agreement(q, boxes, {Role::whole, Role::whole, Role::whole, Role::limited}, 7, 0);
+  ASSERT_TRUE(clause);
+  EXPECT_LE(clause->upper[3], 0.2);  // 2 % and 40 % of the slip are 10 % at 0.2
+}
+
+// Both beyond the tolerance to one side, whichever grains: that is decided; to different sides it is not.
+TEST(SlowFailureMap, DiffersWhereBothKindsOfGrainsSaySoToOneSide) {
+  FailureQuestion q = map_question();
+  q.difference = [](const VectorXd&) -> std::optional<Estimate> { return Estimate{0.15, 0.002}; };
+  q.resolution_error = [](const VectorXd& v) -> std::optional<Estimate> {
+    return Estimate{v[0] > 4500 ? 0.30 : -0.05, 0.004};
+  };
+  const FailureMap map = map_failures(q, {.first = 24, .at_boundary = 0});
+  const auto at_load = [](double load) { return (VectorXd(4) << load, 0.01, 5 * degree, 0.2).finished(); };
+  EXPECT_EQ(map.judged(q, at_load(1500)), Judged::differ);
+  EXPECT_EQ(map.judged(q, at_load(7500)), Judged::undecided);
+}
+
 /// Lists what `known` lacks in `asked` in place of answering it.
 FailureQuestion only_known(const std::vector<FailureRow>& known, std::vector<VectorXd>& asked) {
   FailureQuestion q = map_question();

@@ -74,7 +74,7 @@ TEST(InclineMap, TheDifferenceIsAnalyticLessGrainsOverTheLoad) {
   int runs = 0;
   const VirtualTest grains = stand_in(map, runs);
   ExperimentStore store;
-  const FailureQuestion question = failure_question(map, grains, store, 1, 0.1);
+  const FailureQuestion question = failure_question(map, {&grains, nullptr, &store}, 0.1);
   const VectorXd values = (VectorXd(4) << 500, 0.01, 5 * degree, 0.2).finished();
   const std::optional<Estimate> difference = question.difference(values);
   ASSERT_TRUE(difference);
@@ -84,10 +84,48 @@ TEST(InclineMap, TheDifferenceIsAnalyticLessGrainsOverTheLoad) {
   EXPECT_EQ(runs, 1) << "the second time it comes from the store";
   VirtualTest kept = grains;
   kept.run = nullptr;
-  const FailureQuestion stored = failure_question(map, kept, store, 1, 0.1);
+  const FailureQuestion stored = failure_question(map, {&kept, nullptr, &store}, 0.1);
   EXPECT_TRUE(stored.difference(values));
   EXPECT_FALSE(stored.difference((VectorXd(4) << 501, 0.01, 5 * degree, 0.2).finished())) << "not in the store";
   EXPECT_FALSE(question.difference((VectorXd(4) << 890, 0, 0, 0.2).finished())) << "grains without an answer";
+}
+
+// Grains whose pull is straight in their size: 3 % of the load more for grains 1.4 times as large is 7.5 % for their
+// own size, by which the analytic pull seems too low.
+TEST(InclineMap, ACoarserTwinTellsTheErrorOfResolution) {
+  const InclineMap map = slope_map();
+  int runs = 0;
+  const VirtualTest grains = stand_in(map, runs);
+  VirtualTest coarser = grains;
+  coarser.identity = "stand-in, coarser";
+  coarser.run = [&](const VectorXd& values, std::uint64_t seed) {
+    std::vector<Estimate> answer = grains.run(values, seed);
+    answer.front().value += 0.03 * values[map_load];
+    return answer;
+  };
+  ExperimentStore store;
+  const FailureQuestion question = failure_question(map, {&grains, &coarser, &store}, 0.1);
+  const VectorXd values = (VectorXd(4) << 500, 0.01, 5 * degree, 0.2).finished();
+  const std::optional<Estimate> error = question.resolution_error(values);
+  ASSERT_TRUE(error);
+  EXPECT_NEAR(error->value, -0.03 / 0.4, 1e-12);
+  EXPECT_NEAR(error->std_error, std::sqrt(2.0) * 0.003 / 0.4, 1e-12);
+  EXPECT_FALSE(question.resolution_error((VectorXd(4) << 890, 0, 0, 0.2).finished())) << "grains without an answer";
+}
+
+TEST(InclineMap, TwoQuickModelsNeedNoGrains) {
+  InclineMap map = slope_map();
+  map.of = ModelKind::rft, map.against = ModelKind::bekker_wong;
+  const FailureQuestion question = failure_question(map, {}, 0.1);
+  const VectorXd values = (VectorXd(4) << 500, 0.01, 5 * degree, 0.2).finished();
+  const auto pull = [&](ModelKind kind) {
+    return ask(*make_model(kind), scenario_at(map, values), condition_at(map, values)).result->drawbar_pull.value;
+  };
+  ASSERT_TRUE(question.difference(values));
+  EXPECT_NEAR(question.difference(values)->value, (pull(ModelKind::rft) - pull(ModelKind::bekker_wong)) / 500, 1e-12);
+  EXPECT_FALSE(question.waits());
+  map.against = ModelKind::rft;
+  EXPECT_THROW(failure_question(map, {}, 0.1), InputError) << "a model against itself";
 }
 
 TEST(InclineMap, RefusesAWheelWithoutLugsToVaryAndGrainsWithoutAnalyticValues) {
@@ -96,9 +134,9 @@ TEST(InclineMap, RefusesAWheelWithoutLugsToVaryAndGrainsWithoutAnalyticValues) {
   const VirtualTest grains = stand_in(map, runs);
   ExperimentStore store;
   map.scenario.tire.lugs.count.reset();
-  EXPECT_THROW(failure_question(map, grains, store, 1, 0.1), InputError);
+  EXPECT_THROW(failure_question(map, {&grains, nullptr, &store}, 0.1), InputError);
   map = slope_map(), map.scenario.soil.semi_empirical.reset();
-  EXPECT_THROW(failure_question(map, grains, store, 1, 0.1), InputError);
+  EXPECT_THROW(failure_question(map, {&grains, nullptr, &store}, 0.1), InputError);
 }
 
 TEST(InclineMap, ACheckCountsBothErrors) {
@@ -119,10 +157,11 @@ class SlowInclineMap : public testing::Test {
   static FailureMapResult learn(const InclineMap& map, const VirtualTest& grains, ExperimentStore& store) {
     FailureMapResult result;
     result.map = map;
-    result.question = failure_question(map, grains, store, 1, 0.1);
+    result.question = failure_question(map, {&grains, nullptr, &store}, 0.1);
     result.rows = map_failures(result.question, {.first = 16, .at_boundary = 6});
     result.coordinates = compare_coordinates(map, result.rows);
     result.checks = check_fresh(result.question, result.rows, 4, 1);
+    result.shares = shares_of(result.question, result.rows);
     return result;
   }
   static const Learnt& learnt() {
@@ -156,7 +195,7 @@ TEST_F(SlowInclineMap, LearnsTheFormulaAndPredictsFreshConditions) {
       EXPECT_NEAR(check.found->value, -missing(check.values), 1e-9);
     }
   // Lugs above 12.5 of 20 mm are beyond 10 %: 3 of 9 nodes (15, 17.5, 20), the map errs by a node at most.
-  EXPECT_NEAR(share_beyond(result), 3.0 / 9, 1.0 / 9);
+  EXPECT_NEAR(result.shares.beyond, 3.0 / 9, 1.0 / 9);
 }
 
 TEST_F(SlowInclineMap, GoesOnFromTheStoreWithoutARun) {

@@ -6,6 +6,7 @@
 
 #include "dem/bed/bed_store.hpp"
 #include "dem/bed/insertion.hpp"
+#include "dem/rig/dem_model.hpp"
 #include "scenario/errors.hpp"
 #include "tests/dem/small_bed.hpp"
 #include "tests/dem/worlds.hpp"
@@ -42,6 +43,22 @@ TEST(GradedBed, TheZoneFollowsFromTheTire) {
   tire.lugs.height = 0.03;
   EXPECT_NEAR(grading_for(tire, soil, 2).depth, 0.23, 1e-12);  // lugs reach deeper by their height
   EXPECT_EQ(grading_for(tire, soil, 1).half_width, 0);
+}
+
+// A map varies the lugs' height: one bed, fine as deep as the highest ask for, serves all.
+TEST(GradedBed, ServesLowerLugsToo) {
+  Scenario scenario;
+  scenario.tire.radius = 0.5, scenario.tire.width = 0.3;
+  scenario.soil.granular = test::soft_soil();
+  DemSettings settings;
+  settings.graded = 2, settings.highest_lugs = 0.03;
+  const std::string smooth = recipe_text(DemModel(settings).recipe(scenario));
+  scenario.tire.lugs = {.height = 0.03, .count = 20, .thickness = 0.01};
+  EXPECT_EQ(recipe_text(DemModel(settings).recipe(scenario)), smooth);
+  settings.highest_lugs = 0;
+  EXPECT_EQ(recipe_text(DemModel(settings).recipe(scenario)), smooth) << "lugs of that height themselves";
+  scenario.tire.lugs.height = 0.01;
+  EXPECT_NE(recipe_text(DemModel(settings).recipe(scenario)), smooth);
 }
 
 TEST(GradedBed, IsAnotherBedThanAUniformOneWhoseKeyStays) {
