@@ -170,6 +170,31 @@ FailureQuestion failure_question(const InclineMap& map, const MapGrains& grains,
   return question;
 }
 
+std::vector<LugGain> lug_gains(const InclineMap& map, const FailureQuestion& question, const FailureMap& rows) {
+  const std::vector<Factor>& factors = question.factors;
+  const Factor& lugs = factors.at(map_lug_height);
+  if (!(lugs.upper > lugs.lower) || map.of == ModelKind::dem) return {};
+  const PullAt pull = quick_pull(map, map.of);
+  std::vector<LugGain> gains;
+  for (int load = 0; load < 3; ++load)
+    for (int angle = 0; angle < 2; ++angle)
+      for (int slip = 0; slip < 3; ++slip) {
+        VectorXd high(4);
+        high << level_value(factors[map_load], load, 3), lugs.upper, level_value(factors[map_angle], angle, 2),
+            level_value(factors[map_slip], slip, 3);
+        VectorXd low = high;
+        low[map_lug_height] = lugs.lower;
+        const std::optional<Estimate> with = pull(high), without = pull(low);
+        if (!with || !without) continue;
+        const Estimate differ_with = rows.at(question, high), differ_without = rows.at(question, low);
+        const double of = (with->value - without->value) / high[map_load];
+        gains.push_back({high, of,
+                         Estimate{of - (differ_with.value - differ_without.value),
+                                  std::hypot(differ_with.std_error, differ_without.std_error)}});
+      }
+  return gains;
+}
+
 double FreshCheck::sigma() const {
   if (!found) return not_a_number;
   return (found->value - predicted.value) / std::hypot(found->std_error, predicted.std_error);

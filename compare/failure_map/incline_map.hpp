@@ -50,6 +50,18 @@ struct MapGrains {
 /// Throws InputError for a wheel or soil that lacks what a model needs, and for two models that are one.
 FailureQuestion failure_question(const InclineMap& map, const MapGrains& grains, double tolerance);
 
+/// What lugs bring at a condition, by both models: the pull with the map's highest lugs less that with its lowest
+/// [shares of the load].
+struct LugGain {
+  Eigen::VectorXd values;  ///< with the highest lugs
+  double of = 0.0;         ///< by the map's first model, computed
+  Estimate against;        ///< by the second, as the map has it; the two pulls' errors are taken as independent
+};
+
+/// At the ends and the middle of load and slip and the ends of the angle; where the first model has no answer, none.
+/// Empty where the lugs do not vary or the first model is dem.
+std::vector<LugGain> lug_gains(const InclineMap& map, const FailureQuestion& question, const FailureMap& rows);
+
 /// A condition that the map had not seen when it predicted it.
 struct FreshCheck {
   Eigen::VectorXd values;

@@ -61,6 +61,7 @@ FailureMapResult learn_map(const InclineMap& map, const MapGrains& grains, const
   if (grains.waits()) return result;
   result.coordinates = compare_coordinates(result.map, result.rows);
   result.checks = check_fresh(result.question, result.rows, how.fresh, how.runs.seed);
+  result.lug_gains = lug_gains(result.map, result.question, result.rows);
   result.by_twins = grains.coarser != nullptr;
   result.shares = shares_of(result.question, result.rows);
   return result;

@@ -24,6 +24,7 @@ struct FailureMapResult {
   std::vector<AgreementClause> clauses;  ///< where the models agree
   std::vector<Coordinates> coordinates;
   std::vector<FreshCheck> checks;
+  std::vector<LugGain> lug_gains;
   MapShares shares;
   bool by_twins = false;  ///< whether the resolution errors are the map's own
 };

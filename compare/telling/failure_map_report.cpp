@@ -408,6 +408,26 @@ Table coordinates_table(const FailureMapResult& result) {
   return table;
 }
 
+/// What lugs bring, by both models.
+Table lugs_table(const FailureMapResult& result) {
+  const std::vector<Factor>& factors = result.question.factors;
+  const Factor& lugs = factors[map_lug_height];
+  Table table{fmt::format("What lugs of {} bring over {}: drawbar pull, % of the load", in_units(lugs, lugs.upper),
+                          lugs.lower > 0 ? in_units(lugs, lugs.lower) : "none"),
+              {}};
+  for (const int j : {map_load, map_angle, map_slip}) table.header.push_back(heading(factors[j].name, factors[j].unit));
+  table.header.insert(table.header.end(), {model_in_words(std::string(word_of(result.map.of))),
+                                           model_in_words(std::string(word_of(result.map.against)))});
+  for (const LugGain& gain : result.lug_gains) {
+    std::vector<TableCell> cells;
+    for (const int j : {map_load, map_angle, map_slip})
+      cells.push_back(number(gain.values[j] * per_unit(factors[static_cast<std::size_t>(j)].unit)));
+    cells.insert(cells.end(), {fmt::format("{:.1f}", 100 * gain.of), in_percent(gain.against)});
+    table.add(std::move(cells));
+  }
+  return table;
+}
+
 Table checks_table(const FailureMapResult& result) {
   Table table{"Fresh conditions: predicted, then run", {}};
   for (const Factor& factor : result.question.factors) table.header.push_back(heading(factor.name, factor.unit));
@@ -450,6 +470,13 @@ Json failure_map_json(const FailureMapResult& result) {
     json["predicted"] = where_known(check.predicted), json["found"] = where_known(check.found);
     checks.push_back(std::move(json));
   }
+  Json gains = Json::array();
+  for (const LugGain& gain : result.lug_gains) {
+    Json json = values_json(factors, gain.values);
+    json["of"] = gain.of, json["against"] = estimate_json(gain.against);
+    gains.push_back(std::move(json));
+  }
+  document["lug_gains"] = gains;
   document["factors"] = ranges, document["rows"] = rows;
   document["coordinates"] = groups, document["checks"] = checks;
   return document;
@@ -502,11 +529,14 @@ Report report_on(const FailureMapResult& result, const FailureMapAbout& about) {
   report.add("What it rests on", Prose{}, Told::on_pages, "rows");
   report.add(Fold{fmt::format("All {} conditions run", result.rows.rows.size()),
                   [&result] { return std::vector<ReportPart>{{rows_table(result)}}; }});
+  if (!result.lug_gains.empty())
+    report.add(Fold{"What lugs bring", [&result] { return std::vector<ReportPart>{{lugs_table(result)}}; }});
   report.add(Fold{"Other coordinates", [&result] { return std::vector<ReportPart>{{coordinates_table(result)}}; }});
   if (!result.checks.empty())
     report.add(
         Fold{"Checks on fresh conditions", [&result] { return std::vector<ReportPart>{{checks_table(result)}}; }});
   if (about.show_rows) report.add(rows_table(result), Told::on_terminals);
+  if (!result.lug_gains.empty()) report.add(lugs_table(result), Told::on_terminals);
   report.add(coordinates_table(result), Told::on_terminals);
   if (!result.checks.empty()) report.add(checks_table(result), Told::on_terminals);
   report.resolved_case = about.resolved_case;

@@ -198,6 +198,18 @@ TEST_F(SlowInclineMap, LearnsTheFormulaAndPredictsFreshConditions) {
   EXPECT_NEAR(result.shares.beyond, 3.0 / 9, 1.0 / 9);
 }
 
+// The stand-in's lugs of 20 mm pull 16 % of the load more than none; the smooth analytic wheel has none of it.
+TEST_F(SlowInclineMap, TellsWhatLugsBring) {
+  const FailureMapResult& result = learnt().result;
+  const std::vector<LugGain> gains = lug_gains(result.map, result.question, result.rows);
+  ASSERT_EQ(gains.size(), 18U);
+  for (const LugGain& gain : gains) {
+    EXPECT_NEAR(gain.of, 0.0, 1e-12);
+    EXPECT_NEAR(gain.against.value, 0.16, 0.02);
+    EXPECT_LT(std::abs(gain.against.value - 0.16), 3 * gain.against.std_error + 0.003);
+  }
+}
+
 TEST_F(SlowInclineMap, GoesOnFromTheStoreWithoutARun) {
   EXPECT_GE(learnt().runs, 20);
   EXPECT_EQ(learnt().again, 0);
