@@ -138,8 +138,9 @@ void add_opening(Report& report, const Comparison& comparison) {
   if (!first.empty()) report.add(Sentences(backed(comparison, first)));
   add_curves(report, comparison);
   if (!then.empty()) report.add(Sentences(backed(comparison, then)));
-  if (Table matrix = matrix_table(comparison); !matrix.rows.empty())
-    report.add("Condition by condition", std::move(matrix), Told::to_look_at, "matrix");
+  std::vector<Table> matrix = matrix_tables(comparison);
+  if (!matrix.empty()) report.add("Condition by condition", Prose{}, Told::to_look_at, "matrix");
+  for (Table& table : matrix) report.add(std::move(table), Told::to_look_at);
 }
 
 void add_channels(Report& report, const Comparison& comparison) {

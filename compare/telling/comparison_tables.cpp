@@ -83,19 +83,9 @@ std::string change_cell(const Comparison& comparison, const Tally& asked, std::s
   return "-";
 }
 
-}  // namespace
-
-Table matrix_table(const Comparison& comparison) {
-  constexpr std::size_t most_columns = 10;
-  if (comparison.tallies.empty()) return {};
+/// A condition a row: of each of the channels the baseline and the other sides' changes.
+Table matrix_table(const Comparison& comparison, std::size_t baseline, const std::vector<std::size_t>& channels) {
   const std::vector<Side>& sides = comparison.sides;
-  const std::size_t baseline = sides.back().kind == SideKind::analytic ? 0 : sides.size() - 1;
-  std::vector<std::size_t> channels;
-  for (std::size_t c = 0; c < channel_views.size(); ++c)
-    if (std::ranges::any_of(comparison.tallies,
-                            [&](const Tally& t) { return t.channel == c && t.reference == baseline; }))
-      channels.push_back(c);
-  if (channels.size() * sides.size() > most_columns) channels.resize(1);
   Table table{fmt::format("Baseline: {}. Change: model less baseline; * significant", name_of(sides[baseline])),
               {"condition"},
               {true}};
@@ -118,6 +108,24 @@ Table matrix_table(const Comparison& comparison) {
     table.add(std::move(row));
   }
   return table;
+}
+
+}  // namespace
+
+std::vector<Table> matrix_tables(const Comparison& comparison) {
+  constexpr std::size_t most_columns = 10;
+  if (comparison.tallies.empty()) return {};
+  const std::vector<Side>& sides = comparison.sides;
+  const std::size_t baseline = sides.back().kind == SideKind::analytic ? 0 : sides.size() - 1;
+  std::vector<std::size_t> channels;
+  for (std::size_t c = 0; c < channel_views.size(); ++c)
+    if (std::ranges::any_of(comparison.tallies,
+                            [&](const Tally& t) { return t.channel == c && t.reference == baseline; }))
+      channels.push_back(c);
+  if (channels.size() * sides.size() <= most_columns) return {matrix_table(comparison, baseline, channels)};
+  std::vector<Table> tables;
+  for (const std::size_t c : channels) tables.push_back(matrix_table(comparison, baseline, {c}));
+  return tables;
 }
 
 Table rows_table(const Comparison& comparison, const Tally& tally) {

@@ -2,15 +2,18 @@
 // point.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "compare/discrepancy/comparison.hpp"
 #include "compare/report/table.hpp"
 
 namespace soilbin::compare {
 
 /// The comparison in one table, a condition a row: of each channel the baseline (measured, else grains, else the first
-/// model) and the other sides' changes against it, with a star where one is significant. The pull alone where all
-/// channels would be more than ten columns. Forces in kN where they are as large.
-Table matrix_table(const Comparison& comparison);
+/// model) and the other sides' changes against it, with a star where one is significant. A table a channel where all
+/// of them would be more than ten columns. Forces in kN where they are as large. Empty: there is nothing to compare.
+std::vector<Table> matrix_tables(const Comparison& comparison);
 /// A pair and channel a row, the widest apart first: how many differ, root mean square, mean, the widest condition.
 /// Good where the root mean square is no larger than the stated errors make it, bad where it is and any row differs.
 Table tally_table(const Comparison& comparison);

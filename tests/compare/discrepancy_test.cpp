@@ -180,7 +180,9 @@ TEST_F(Pair, ABedOfAnotherDensityThanTheSoilsValuesIsSaid) {
 
 // One row a condition: the grains' own value, then what the model adds to it, with a star where that is significant.
 TEST_F(Pair, TheMatrixHoldsTheBaselineAndEachChange) {
-  const Table matrix = matrix_table(against({300}, 40.0));
+  const std::vector<Table> one = matrix_tables(against({300}, 40.0));
+  ASSERT_EQ(one.size(), 1U);
+  const Table& matrix = one.front();
   ASSERT_EQ(matrix.rows.size(), question.study.conditions.size());
   ASSERT_EQ(matrix.header.size(), 7U) << "the condition, then two columns for each of three channels";
   EXPECT_THAT(matrix.header[1], AllOf(HasSubstr("drawbar pull ["), HasSubstr("grains")));
@@ -188,6 +190,23 @@ TEST_F(Pair, TheMatrixHoldsTheBaselineAndEachChange) {
   const bool kilo = matrix.header[1].find("[kN]") != std::string::npos;
   for (const auto& row : matrix.rows) EXPECT_EQ(row[2].text, kilo ? "-0.3 *" : "-300 *");
   EXPECT_EQ(matrix.rows[0][4].text, "+0") << "a torque as it was";
+}
+
+// Four sides of three channels are twelve columns: a table a channel, so that none of them is left out.
+TEST_F(Pair, AMatrixOfManySidesIsATableForEachChannel) {
+  Comparison comparison = against({300}, 40.0);
+  const Side analytic = comparison.sides.front();
+  comparison.sides.insert(comparison.sides.begin(), {analytic, analytic});
+  for (Tally& tally : comparison.tallies) tally.side = 2, tally.reference = 3;
+  for (Difference& difference : comparison.differences) difference.side = 2, difference.reference = 3;
+  const std::vector<Table> tables = matrix_tables(comparison);
+  ASSERT_EQ(tables.size(), 3U);
+  for (std::size_t c = 0; c < tables.size(); ++c) {
+    ASSERT_EQ(tables[c].header.size(), 5U) << "the condition, the baseline and three changes";
+    EXPECT_THAT(tables[c].header[1], HasSubstr(channel_views[c].title));
+    EXPECT_EQ(tables[c].rows.size(), question.study.conditions.size());
+    EXPECT_NE(tables[c].rows[0][4].text, "-");
+  }
 }
 
 // Efficiency ends at 100 %: the axis cuts a band that goes further, and is left alone by one that does not.
