@@ -395,6 +395,9 @@ class ArgumentsInWords(unittest.TestCase):
                     for internal in ("incompatible function arguments", "Invoked with", "has no attribute", "subscriptable",
                                      "iterable"):
                         self.assertNotIn(internal, said)
+                    named = said.partition("()")[0]
+                    if named != said:
+                        self.assertEqual(named, name, "the function that was called, not one that it calls")
                     asked += 1
         self.assertGreater(asked, 80)
 
@@ -407,6 +410,15 @@ class ArgumentsInWords(unittest.TestCase):
                               "bekker_static_sinkage(): load: expected a number, not 'heavy'"),
                              (lambda: bekker_wong.fit_plates([1.5], None),
                               "fit_plates(): curves: expected a list of PlateCurve, not [1.5]"),
+                             (lambda: soilbin.run_study(None), "run_study(): case: expected a Case or a text, not None"),
+                             (lambda: soilbin.sweep(ROVER, None), "sweep(): at: expected a list of OperatingCondition, not None"),
+                             (lambda: dem.SoilBin(None), "SoilBin(): packing: expected a whole number, not None"),
+                             (lambda: bekker_wong.explain(None),
+                              "scenario: expected a Scenario, such as Scenario('rover-wheel', 'dry-sand'), not None"),
+                             (lambda: bekker_wong.BekkerWong().evaluate(ROVER, 20),
+                              "evaluate(): at: expected an OperatingCondition, not 20"),
+                             (lambda: compare.compare_case("paper-straight", record=3),
+                              "compare_case(): record: expected a Record or a list of RecordedRun or None, not 3"),
                              (lambda: compare.predict(1.5), "predict(): campaign: expected a Campaign or a text, not 1.5"),
                              (lambda: bekker_wong.drive_frame([]), "drive_frame(): record: expected a DriveRecord, not []")):
             with self.assertRaises(TypeError) as raised:

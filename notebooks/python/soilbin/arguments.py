@@ -18,6 +18,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 # How annotations and pybind11's docstrings call what is no class of soilbin: in words, and what is taken.
 PLAIN: dict[str, tuple[str, Any]] = {
+    "None": ("None", type(None)),
     "str": ("a text", str),
     "float": ("a number", numbers.Real),
     "int": ("a whole number", numbers.Integral),
@@ -26,7 +27,7 @@ PLAIN: dict[str, tuple[str, Any]] = {
     "Path": ("a path", (str, os.PathLike)),
     "os.PathLike": ("a path", (str, os.PathLike)),
 }
-LISTS = ("List[", "Sequence[", "Set[", "list[", "set[")
+LISTS = ("List[", "Sequence[", "Iterable[", "Set[", "list[", "set[")
 
 
 def parts(text: str) -> list[str]:
@@ -80,6 +81,8 @@ def in_words(kind: str) -> str:
         return " or ".join(in_words(one) for one in inside(kind))
     if kind.startswith(LISTS):
         inner = inside(kind)[0]
+        if inner.startswith("Union["):
+            return "a list of them"
         return f"a list of {inner.rpartition('.')[2] if inner not in PLAIN else PLAIN[inner][0].removeprefix('a ') + 's'}"
     if kind.startswith(("Dict[", "dict[")):
         return "a dictionary"
@@ -99,30 +102,32 @@ class Parameter:
 
 
 def parameters_of(function: Callable[..., Any]) -> Optional[list[Parameter]]:
-    """By the docstring of a function of the extension; none where it has several signatures or takes any keyword."""
+    """By the docstring of a function of the extension; none where it has several signatures."""
     signature = (function.__doc__ or "").partition("\n")[0]
     inner = signature.partition("(")[2].rpartition(") -> ")[0]
-    texts = parts(inner)
-    if ") -> " not in signature or any(text.startswith("*") for text in texts):
+    if ") -> " not in signature:
         return None
-    return [Parameter(text) for text in texts]
+    return [Parameter(text) for text in parts(inner)]
 
 
 def annotated(function: Callable[..., Any]) -> list[Parameter]:
     found = []
     for parameter in inspect.signature(function).parameters.values():
         has_default = parameter.default is not inspect.Parameter.empty
-        found.append(Parameter(f"{parameter.name}: {parameter.annotation}{' = ...' if has_default else ''}"))
+        stars = "**" if parameter.kind is inspect.Parameter.VAR_KEYWORD else ""
+        found.append(Parameter(f"{stars}{parameter.name}: {parameter.annotation}{' = ...' if has_default else ''}"))
     return found
 
 
 def what_is_wrong(name: str, known: Sequence[Parameter], given: Sequence[Any], named: dict[str, Any]) -> Optional[str]:
-    """In words; none where nothing is found to be."""
+    """In words; none where nothing is found to be. Keywords that `**` takes are left to the function."""
+    any_keyword = any(one.name.startswith("**") for one in known)
+    known = [one for one in known if not one.name.startswith("*")]
     names = ", ".join(one.name for one in known) or "no arguments"
     if len(given) > len(known):
         return f"{name}() takes {names}; {len(given)} arguments were given"
     for key in named:
-        if key not in [one.name for one in known]:
+        if not any_keyword and key not in [one.name for one in known]:
             return f"{name}() takes {names}, not '{key}'"
     told = {one.name: value for one, value in zip(known, given)} | named
     for one in known:
@@ -150,6 +155,21 @@ def worded(function: Function, known: Optional[Sequence[Parameter]] = None) -> F
     return asked  # type: ignore[return-value]
 
 
+def worded_method(method: Any, name: str, known: Sequence[Parameter]) -> Any:
+    """As worded, of a method or constructor: its first parameter is the object itself."""
+    @functools.wraps(method)
+    def asked(self: Any, *given: Any, **named: Any) -> Any:
+        try:
+            return method(self, *given, **named)
+        except TypeError:
+            wrong = what_is_wrong(name, known[1:], given, named)
+            if wrong is None:
+                raise
+            raise TypeError(wrong) from None
+
+    return asked
+
+
 def word_the_extension() -> None:
     """Once, before anything takes a function from the extension."""
     for name, function in list(vars(_soilbin).items()):
@@ -157,6 +177,13 @@ def word_the_extension() -> None:
             known = parameters_of(function)
             if known is not None:
                 setattr(_soilbin, name, worded(function, known))
+    for class_name, known_class in list(vars(_soilbin).items()):
+        if not inspect.isclass(known_class):
+            continue
+        for name, method in list(vars(known_class).items()):
+            known = parameters_of(method) if type(method).__name__ == "instancemethod" else None
+            if known and known[0].name == "self" and (name == "__init__" or not name.startswith("_")):
+                setattr(known_class, name, worded_method(method, class_name if name == "__init__" else name, known))
 
 
 word_the_extension()

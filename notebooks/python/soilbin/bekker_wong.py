@@ -82,6 +82,7 @@ def explain(scenario: Scenario, at: Optional[OperatingCondition] = None, *, rigi
     """The model's equations with their values: explain(wheel, load=80, slip=0.2). Keywords, `rigid`, `no_lugs` and errors as of
     estimate; each step's value is in its own `unit`.
     """
+    checked(scenario)
     asked = one_condition(at, condition)
     return _soilbin.explain(as_asked(scenario, asked, rigid, no_lugs), asked)
 
@@ -102,6 +103,7 @@ def largest_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, *,
     largest_pull(wheel, load=80). The slip of `at` is not read. Keywords and `rigid` as of estimate. Raises NoSolution
     where no slip has a balance.
     """
+    checked(scenario)
     asked = at_any_slip(at, condition)
     return _soilbin.largest_pull(as_asked(scenario, asked, rigid, no_lugs), asked)
 
@@ -113,6 +115,7 @@ def slip_for_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, d
     A float with its standard error (`std_error`, to first order from the soil's standard deviations): NaN where one
     standard error of the soil makes the pull one that the wheel does not reach. `rigid` as in estimate.
     """
+    checked(scenario)
     asked = at_any_slip(at, condition, PULL_HINT)
     return estimated(_soilbin.slip_for_pull(as_asked(scenario, asked, rigid, no_lugs), asked, drawbar))
 
@@ -124,10 +127,12 @@ def steepest_slope(scenario: Scenario, at: Optional[OperatingCondition] = None, 
     A float with its standard error (`std_error`, to first order from the soil's standard deviations). `rigid` as in
     estimate.
     """
+    checked(scenario)
     asked = at_any_slip(at, condition, PULL_HINT)
     return estimated(_soilbin.steepest_slope(as_asked(scenario, asked, rigid, no_lugs), asked, drawbar))
 
 
+@worded
 def drive_wheel(scenario: Scenario, drive: Optional[Drive], samples: int = 400,
                 progress: Progress = "shown") -> DriveRecord:
     """Drives a wheel in time from rest (docs/guide/drive.md); effects are those of the drive.
@@ -135,6 +140,7 @@ def drive_wheel(scenario: Scenario, drive: Optional[Drive], samples: int = 400,
     samples: intervals of time over the drive's whole duration. Raises InputError for an effect that a drive can't take
     and for a case that has no drive, NoSolution where the soil can't hold the wheel at its start.
     """
+    checked(scenario)
     if drive is None:
         raise _soilbin.InputError("the case has no section 'drive'")
     return _soilbin.drive_wheel(scenario, drive, samples, told_to(progress))

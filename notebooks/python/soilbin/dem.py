@@ -120,6 +120,7 @@ def angle_of_repose(soil: GranularSoil, *, packing: int = 1, radius: float = 6, 
     return _soilbin.angle_of_repose(soil, packing, radius, height, rolling, threads, told_to(progress))
 
 
+@worded
 def run_wheel(bin: SoilBin, scenario: Scenario, at: OperatingCondition, progress: Progress = "shown") -> WheelRun:
     """One run of the virtual soil bin (docs/guide/soil-bin.md); the bed is settled once and kept by `bin`.
 
@@ -129,6 +130,7 @@ def run_wheel(bin: SoilBin, scenario: Scenario, at: OperatingCondition, progress
     return bin.run(scenario, at, told_to(progress))
 
 
+@worded
 def record_runs(case: Union[Case, str], file: Union[str, Path], bin: Optional[SoilBin] = None, *, packings: int = 1,
                 half_step: bool = False, progress: Progress = "shown") -> Record:
     """Runs the conditions of a case's study in the virtual soil bin and keeps them in a file (docs/guide/recorded.md).

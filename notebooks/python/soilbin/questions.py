@@ -22,6 +22,7 @@ from soilbin._soilbin import (
     Shelf,
     TractionResult,
 )
+from soilbin.arguments import worded
 from soilbin.progress import Progress, told_to
 
 CONDITION = ("load", "slip", "speed", "longitudinal_incline", "transverse_incline", "yaw", "pass",
@@ -112,6 +113,7 @@ def estimate(scenario: Scenario, at: Optional[OperatingCondition] = None, *, rig
     return result
 
 
+@worded
 def sweep(scenario: Scenario, at: Iterable[OperatingCondition], model: Optional[Model] = None,
           progress: Progress = "shown", *, rigid: bool = False,
           no_lugs: bool = False) -> pd.DataFrame:
@@ -132,14 +134,16 @@ def sweep(scenario: Scenario, at: Iterable[OperatingCondition], model: Optional[
 
 def swept(scenario: Scenario, at: Iterable[OperatingCondition], model: Optional[Model],
           progress: Progress, notes: Sequence[str] = ()) -> pd.DataFrame:
-    """What sweep gives, of the scenario's own effects; its warnings are said of the line that called the caller."""
+    """What sweep gives, of the scenario's own effects; its warnings are said of the line that called the caller,
+    which is worded."""
     answers = _soilbin.answers(model or BekkerWong(patch=False), checked(scenario), list(at), told_to(progress))
     frame = answers_frame(answers)
     if model is None or isinstance(model, BekkerWong):
-        frame.attrs["warnings"] = warned(scenario, answers, stacklevel=4, notes=notes)
+        frame.attrs["warnings"] = warned(scenario, answers, stacklevel=5, notes=notes)
     return frame
 
 
+@worded
 def run_study(case: Union[Case, str], progress: Progress = "shown", *, rigid: bool = False,
           no_lugs: bool = False) -> pd.DataFrame:
     """The answers of a study's quick models (bekker_wong, rft) as sweep gives them, with a first column `model`.
@@ -149,7 +153,7 @@ def run_study(case: Union[Case, str], progress: Progress = "shown", *, rigid: bo
     """
     question, notes = _soilbin.study_as_asked(
         _soilbin.find_case(case) if isinstance(case, str) else case, rigid, no_lugs)
-    tell(notes)
+    tell(notes, stacklevel=4)
     frames: list[pd.DataFrame] = []
     said: list[str] = list(notes)
     for choice in question.study.models:
