@@ -97,7 +97,7 @@ void add_plot(CLI::App& command, std::string& name, const char* meaning) {
 
 void OutputFlags::add_to(CLI::App& command, const Meanings& meanings) {
   if (meanings.plot) add_plot(command, plot, meanings.plot);
-  add_file(command, "--report", report, "FILE.html", "save a page to open in a browser");
+  add_file(command, meanings.page, report, "FILE.html", "save a page to open in a browser");
   add_folder(command, "--markdown", markdown, "write it as Markdown with its figures and their data", {"case.yaml"});
   if (meanings.csv) {
     add_file(command, "--csv", csv.file, "FILE.csv", meanings.csv);

@@ -64,8 +64,9 @@ struct OutputFlags {
     const char* json;            ///< "soilbin-drive/1, in SI"
     const char* plot = nullptr;  ///< nullptr: the answer has no drawing of its own
     const char* csv = nullptr;   ///< nullptr: it has no samples
+    const char* page = "--report";
   };
-  /// Adds --json, --report, --markdown and, where they have a meaning, --plot and --csv.
+  /// Adds --json, the page's flag, --markdown and, where they have a meaning, --plot and --csv.
   void add_to(CLI::App& command, const Meanings& meanings);
 };
 

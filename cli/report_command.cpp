@@ -5,17 +5,14 @@
 #include <filesystem>
 #include <memory>
 
-#include "cli/command_words.hpp"
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
-#include "cli/text_output.hpp"
-#include "cli/versions.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/named_doubts.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/studies_report.hpp"
-#include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
 
@@ -26,18 +23,9 @@ constexpr int smooth_points = 41;
 
 struct ReportOptions {
   std::vector<std::string> studies, campaigns, links;
-  std::string output = "report.html", title = "soilbin report";
+  std::string title = "soilbin report";
+  OutputFlags outputs;
 };
-
-std::string command_of(const ReportOptions& options) {
-  std::vector<std::string> words = {"report"};
-  words.insert(words.end(), options.studies.begin(), options.studies.end());
-  if (!options.campaigns.empty()) words.emplace_back("--measured");
-  words.insert(words.end(), options.campaigns.begin(), options.campaigns.end());
-  for (const std::string& link : options.links) words.insert(words.end(), {"--link", link});
-  words.insert(words.end(), {"--title", options.title, "--output", options.output});
-  return command_line(words);
-}
 
 /// Whether a name is a campaign's, on the disk or in the library.
 bool is_campaign(const std::string& name, const Workplace& place) {
@@ -77,11 +65,15 @@ int report(const ReportOptions& asked, const Session& session) {
   const ReportOptions options = sorted(asked, session.place);
   if (options.studies.empty() && options.campaigns.empty())
     throw InputError("name a study or a campaign: soilbin report paper-straight --measured cmu-smooth");
-  if (const std::string why = why_not_writable(options.output); !why.empty()) throw InputError("--output: " + why);
-  announce_output(options.output, "--output");
+  OutputFlags outputs = options.outputs;
+  if (outputs.report.empty() && outputs.markdown.empty() && !outputs.json) {
+    outputs.report = "report.html";
+    if (const std::string why = why_not_writable(outputs.report); !why.empty()) throw InputError("--output: " + why);
+    announce_output(outputs.report, "--output");
+  }
   std::vector<compare::StudyPart> studies;
   std::vector<compare::PageCard> links;
-  for (const std::string& link : options.links) links.push_back(compare::page_card(link, options.output));
+  for (const std::string& link : options.links) links.push_back(compare::page_card(link, outputs.report));
   compare::NamedDoubts named;
   for (const std::string& name : options.studies) {
     compare::StudyPart part{find_study(session.place, name), {}, {}, {}, name};
@@ -101,13 +93,9 @@ int report(const ReportOptions& asked, const Session& session) {
     named.add(name, compare::doubts(part.campaign, declared, part.prediction));
     campaigns.push_back(std::move(part));
   }
-  const compare::Doubts doubts = named.all();
-  print_warnings(doubts);
-  write_file_atomically(options.output,
-                        compare::page_of(compare::report_on(studies, campaigns, links),
-                                         {options.title, command_of(options), versions(), in_words(doubts)}));
-  fmt::print("wrote {}: open it in a browser\n", options.output);
-  return done;
+  compare::Report page = compare::report_on(studies, campaigns, links);
+  page.title = options.title;
+  return publish(std::move(page), outputs, named.all(), session).status(done);
 }
 
 }  // namespace
@@ -120,9 +108,11 @@ void add_report(CLI::App& app, Session& session) {
   add_value(*command, "--measured", options->campaigns, "CAMPAIGN...", "campaigns to predict and compare");
   add_value(*command, "--link", options->links, "FILE.html...",
             "other pages of soilbin, shown with their first drawing and sentence");
-  add_value(*command, "--output", options->output, "FILE.html", "the page; by default report.html");
+  options->outputs.add_to(*command, {.json = "soilbin-report/1, in SI", .page = "--output"});
   add_value(*command, "--title", options->title, "TEXT", "title of the page");
-  command->footer("Example: soilbin report paper-straight --measured cmu-smooth --output report.html");
+  command->footer(
+      "The page is report.html where neither --output, --markdown nor --json is given.\n"
+      "Example: soilbin report paper-straight --measured cmu-smooth --output report.html");
   command->callback([=, &session] { session.action = [=, &session] { return report(*options, session); }; });
 }
 

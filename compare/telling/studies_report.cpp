@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <span>
 
 #include "bekker_wong/effect.hpp"
+#include "compare/experiments/study_results.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/shell_words.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/model_names.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/soil_parameters.hpp"
 
@@ -349,6 +353,15 @@ std::vector<KeyFigure> key_figures(const std::vector<StudyPart>& studies, const 
   return figures;
 }
 
+/// soilbin-report/1: of each study soilbin-run/1, of each campaign soilbin-predict/1.
+Json studies_json(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns) {
+  Json document = {{"format", "soilbin-report/1"}, {"studies", Json::array()}, {"campaigns", Json::array()}};
+  for (const StudyPart& part : studies) document["studies"].push_back(to_json(part.question, {.study = part.study}));
+  for (const CampaignPart& part : campaigns)
+    document["campaigns"].push_back(to_json(part.prediction, part.campaign.name));
+  return document;
+}
+
 }  // namespace
 
 std::string in_words(const StudyPart& part) {
@@ -398,11 +411,12 @@ Report report_on(const std::vector<StudyPart>& studies, const std::vector<Campai
   Report report{
       "soilbin report",
       "What does this tire do on this soil? Answers of the analytic wheel, and how they compare with measurements."};
-  report.add(KeyFigures{key_figures(studies, campaigns)});
+  report.add(KeyFigures{key_figures(studies, campaigns)}, Told::to_look_at);
   std::vector<std::pair<std::string, std::string>> summary;
   for (const StudyPart& part : studies) summary.emplace_back(part.question.study.name, in_words(part));
   for (const CampaignPart& part : campaigns) summary.emplace_back(part.campaign.name, in_words(part));
   report.add(Sentences(summary));
+  const std::size_t told_on_terminals = report.parts.size();
   if (!studies.empty()) add_curves(report, studies.front());
   if (!links.empty()) report.add("More pages", Cards{links}, Told::on_pages);
   if (!studies.empty() && !studies.front().asked_as.empty()) {
@@ -414,6 +428,8 @@ Report report_on(const std::vector<StudyPart>& studies, const std::vector<Campai
   for (const CampaignPart& part : campaigns) add_campaign(report, part);
   report.add(WarningsHere());
   add_provenance(report, studies, campaigns);
+  for (ReportPart& part : std::span(report.parts).subspan(told_on_terminals))
+    if (holds(part.told, Told::on_terminals)) part.told = Told::to_look_at;
   report.notes = {
       "The model is Bekker's pressure-sinkage law with Wong and Reece's stresses under a rigid wheel and Janosi's "
       "shear law; effects named in a model's label are added to it. ± is one standard error, propagated to first order "
@@ -423,6 +439,8 @@ Report report_on(const std::vector<StudyPart>& studies, const std::vector<Campai
   for (const StudyPart& part : studies)
     for (const ModelAnswers& model : part.study) labels.push_back(model.choice.label);
   report.made_of = names_and_ids(labels);
+  report.data = [&] { return studies_json(studies, campaigns); };
+  report.data_name = "report";
   return report;
 }
 

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
 
@@ -369,9 +370,29 @@ TEST(Report, TakesCampaignsBesideStudies) {
       soilbin("report rover-slip " SOILBIN_SOURCE_DIR "/cases/measured/cmu-smooth --output '" + page + "'");
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_THAT(text_of(page),
-              AllOf(HasSubstr("rover-slip"), HasSubstr("--measured " SOILBIN_SOURCE_DIR "/cases/measured/"
-                                                       "cmu-smooth")));
+              AllOf(HasSubstr("rover-slip"), HasSubstr("Prediction error without fitting (RMS over 89 runs")));
   EXPECT_EQ(soilbin("report cmu-smooth --output '" + page + "'").status, 0);
+}
+
+// On a terminal the sentences that the page opens with; as JSON what run and predict answer; as Markdown all of it.
+TEST(Report, IsToldInEveryForm) {
+  const Scratch scratch;
+  const std::string folder = (scratch / "told").string();
+  const Outcome told = soilbin("report rover-slip cmu-smooth --title 'Two wheels' --markdown '" + folder + "'");
+  ASSERT_EQ(told.status, 0) << told.err;
+  EXPECT_THAT(told.out, AllOf(HasSubstr("rover-slip: "), HasSubstr("cmu-smooth: Prediction error"),
+                              testing::Not(HasSubstr("soilbin serve"))));
+  EXPECT_THAT(text_of(folder + "/report.md"),
+              AllOf(HasSubstr("# Two wheels"), HasSubstr("Where the numbers come from")));
+  EXPECT_FALSE(fs::exists("report.html")) << "the page is written where nothing else is asked for";
+  const Outcome json = soilbin("report rover-slip cmu-smooth --json");
+  ASSERT_EQ(json.status, 0) << json.err;
+  const nlohmann::json document = nlohmann::json::parse(json.out);
+  EXPECT_EQ(document.at("format"), "soilbin-report/1");
+  EXPECT_EQ(document.at("studies").at(0).at("rows"),
+            nlohmann::json::parse(soilbin("run rover-slip --json").out).at("rows"));
+  EXPECT_EQ(document.at("campaigns").at(0).at("rows"),
+            nlohmann::json::parse(soilbin("predict cmu-smooth --json").out).at("rows"));
 }
 
 TEST(RunCommand, NamesTheSoilsThatHaveGrains) {
