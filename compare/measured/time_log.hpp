@@ -28,6 +28,9 @@ inline constexpr std::size_t most_log_rows = 1'000'000;
 /// A time of a logger in seconds: a number, "12:30:05.25", "2026-01-31T12:30:05"; no value for anything else.
 std::optional<double> clock_time(const std::string& text);
 
+/// One of a unit in SI: "kN" is 1000.
+double one_in_si(const std::string& unit);
+
 /// Whether a column of this name holds the time of each row: "time", "t", "timestamp", alone or with a unit behind it.
 bool names_a_clock(const std::string& header);
 

@@ -203,7 +203,7 @@ TEST(TimeLogs, AreDividedWhereTheConditionsStep) {
   EXPECT_EQ(made.runs[0].run.setpoint, made.runs[2].run.setpoint);
   EXPECT_NE(made.runs[0].run.setpoint, made.runs[1].run.setpoint);
   EXPECT_THAT(made.notes, Contains("Columns left aside: motor_temperature."));
-  EXPECT_THAT(made.notes, Contains(HasSubstr("4 runs stand in 1 unbroken stretch of time")));
+  EXPECT_THAT(made.notes, Contains(HasSubstr("4 runs form 1 unbroken period of time")));
 }
 
 // The clock's breaks tell two runs at one setpoint apart; without a clock they are one.
