@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/text_output.hpp"
+#include "compare/calibrate/experiment_store.hpp"
 #include "compare/doubts/declared_doubts.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_doubts.hpp"
@@ -24,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What a file turned out to be, and what is doubtful in it.
-struct Verdict {
+struct CheckedFile {
   std::string what;
   compare::Doubts doubts;
 };
@@ -52,8 +53,12 @@ fs::path file_named(const std::string& name, const Workplace& place) {
   return fs::is_directory(name, error) ? fs::path(name) / "campaign.yaml" : fs::path(name);
 }
 
-Verdict judge(const fs::path& file, const Workplace& place) {
+CheckedFile judge(const fs::path& file, const Workplace& place) {
   if (file.extension() == ".json") {
+    if (compare::is_experiment_store(file)) {
+      const compare::ExperimentStore store(file);
+      return {"store of " + compare::counted(store.size(), "experiment"), {}};
+    }
     const compare::Record record = compare::read_record(file);
     return {"record: " + compare::counted(record.runs.size(), "run") + " of the model " + record.model,
             compare::step_doubts(record)};
@@ -89,16 +94,16 @@ Verdict judge(const fs::path& file, const Workplace& place) {
 }
 
 int check(const std::string& name, bool json, const Session& session) {
-  const Verdict verdict = judge(file_named(name, session.place), session.place);
+  const CheckedFile checked = judge(file_named(name, session.place), session.place);
   if (json) {
-    nlohmann::ordered_json document = {{"format", "soilbin-check/1"}, {"valid", true}, {"what", verdict.what}};
+    nlohmann::ordered_json document = {{"format", "soilbin-check/1"}, {"valid", true}, {"what", checked.what}};
     document["warnings"] = nlohmann::ordered_json::array();  // an empty list where there are none
-    print_json(std::move(document), verdict.doubts);
+    print_json(std::move(document), checked.doubts);
     return done;
   }
-  fmt::print("valid: {}\n", verdict.what);
-  for (const std::string& line : in_words(verdict.doubts)) fmt::print("warning: {}\n", line);
-  if (verdict.doubts.empty()) fmt::print("no warnings\n");
+  fmt::print("valid: {}\n", checked.what);
+  for (const std::string& line : in_words(checked.doubts)) fmt::print("warning: {}\n", line);
+  if (checked.doubts.empty()) fmt::print("no warnings\n");
   return done;
 }
 

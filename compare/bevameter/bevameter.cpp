@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scenario/errors.hpp"
+#include "scenario/number_check.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -114,6 +115,7 @@ Soil with_bevameter(Soil soil, const BevameterFit& fit, double density, const st
   }
   for (const SoilParameter& p : bevameter_parameters) out.*p.value = fit.soil.*p.value, out.sources[p.name] = source;
   out.density = density, out.sources["density"] = source;
+  check_numbers(out);
   if (fit.cohesion_as_fitted < 0) out.sources["cohesion"] += "; fitted below 0, taken as 0";
   soil.semi_empirical = out;
   return soil;

@@ -60,7 +60,8 @@ struct BevameterFit {
 BevameterFit fit_bevameter(std::span<const PlateSet> plates, std::span<const ShearCurve> shear);
 
 /// The soil with these values as its semi-empirical part. What a bevameter does not tell (c1, c2) stays as it was, or
-/// is Azimi's choice for sand where there was nothing; `source` is noted at each number that comes from the fit.
+/// is Azimi's choice for sand where there was nothing; `source` is noted at each number that comes from the fit. Throws
+/// InputError for a value that no soil's file may hold, such as a friction angle below 0.
 Soil with_bevameter(Soil soil, const BevameterFit& fit, double density, const std::string& source);
 
 }  // namespace soilbin::compare

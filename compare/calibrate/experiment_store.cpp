@@ -175,6 +175,15 @@ void ExperimentStore::merge(const std::filesystem::path& other) {
   kept_.add(take, "");
 }
 
+bool is_experiment_store(const std::filesystem::path& file) {
+  try {
+    const Json document = parse_json(kept_documents(file).front(), "");
+    return document.is_object() && document.value("format", "") == format;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 std::size_t ExperimentStore::unsealed() const {
   std::ptrdiff_t sum = 0;
   for (const auto& [key, experiments] : tests_) sum += std::ranges::count(experiments, false, &Experiment::sealed);

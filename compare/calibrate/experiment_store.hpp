@@ -103,6 +103,9 @@ class ExperimentStore {
   KeptFile kept_;  ///< last: goes first, and writes the tests
 };
 
+/// Whether a file says that it is a store of experiments.
+bool is_experiment_store(const std::filesystem::path& file);
+
 /// The experiment of a spec: the store's, or made now, timed and kept; nothing where the store lacks it and the test
 /// makes none. NoSolution and results that aren't finite become its error; what else the test throws goes through.
 std::optional<Experiment> obtain(const VirtualTest& test, const ExperimentSpec& spec, ExperimentStore& store);

@@ -229,6 +229,12 @@ study:
     EXPECT_THAT(kinds, HasSubstr(kind));
 }
 
+TEST(Check, AStoreOfAFailureMapIsRead) {
+  const Outcome r = soilbin("check '" SOILBIN_SOURCE_DIR "/cases/failure_maps/paper-longitudinal.json'");
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, testing::MatchesRegex("valid: store of [0-9]+ experiments\nno warnings\n"));
+}
+
 TEST(Check, ATireIsJudgedByItsMeasures) {
   const Scratch scratch;
   const fs::path file = scratch.write("tire.yaml", "format: soilbin-tire/1\nradius: 25 m\nwidth: 100 mm\n");

@@ -1,12 +1,15 @@
 // The bevameter gives back the soil that made its curves.
 #include "compare/bevameter/bevameter.hpp"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "scenario/case.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/soil_parameters.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
@@ -71,6 +74,72 @@ TEST(Bevameter, WritesASoilThatReadsBack) {
   EXPECT_EQ(again.semi_empirical->k_phi.value, out.semi_empirical->k_phi.value);
   EXPECT_EQ(again.semi_empirical->sources.at("k_phi"), "virtual bevameter");
   EXPECT_EQ(again.semi_empirical->stress_angle_c1.value, 0.18);
+}
+
+/// Plates and rings of any soil, as their readings scatter by a share.
+struct AnySoil {
+  std::mt19937_64 random;
+  double between(double low, double high) { return std::uniform_real_distribution(low, high)(random); }
+  double scattered(double value, double share) { return value * (1 + share * between(-1, 1)); }
+
+  std::vector<PlateSet> sets(double share) {
+    std::vector<PlateSet> all(std::uniform_int_distribution<std::size_t>(1, 3)(random));
+    const double exponent = between(0.02, 6), cohesive = between(-3e3, 3e4), frictional = between(1e4, 1e8);
+    for (PlateSet& set : all)
+      for (const double radius : {0.05, 0.1, 0.15}) {
+        bekker_wong::PlateCurve curve{.radius = radius, .pressure = {}, .sinkage = {}};
+        for (const double z : {0.01, 0.02, 0.04, 0.06}) {
+          curve.sinkage.push_back(z);
+          curve.pressure.push_back(scattered((cohesive / radius + frictional) * std::pow(z, exponent), share));
+        }
+        set.push_back(curve);
+      }
+    return all;
+  }
+
+  std::vector<ShearCurve> rings(double share) {
+    std::vector<ShearCurve> all;
+    const double bond = between(-2e3, 5e3), slope = between(-0.2, 1.5), stretch = std::exp(between(-9, 0));
+    for (const double normal : {5e3, 10e3, 20e3}) {
+      ShearCurve& curve = all.emplace_back(ShearCurve{.normal_stress = normal, .displacement = {}, .shear_stress = {}});
+      for (int k = 1; k <= 12; ++k) {
+        const double j = 0.01 * k;
+        curve.displacement.push_back(j);
+        curve.shear_stress.push_back(scattered((bond + normal * slope) * (1 - std::exp(-j / stretch)), share));
+      }
+    }
+    return all;
+  }
+};
+
+// Whatever the plates and the ring give, the soil that is written of it is read, to the same bits. What no soil's file
+// may hold (an exponent of 6, a friction angle below 0) is refused before it is written.
+TEST(Bevameter, WhatItWritesIsRead) {
+  int read = 0, refused = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    AnySoil any{std::mt19937_64(seed)};
+    const double share = any.between(0, 0.3);
+    const std::vector<PlateSet> sets = any.sets(share);
+    const std::vector<ShearCurve> rings = any.rings(share);
+    Soil out;
+    try {
+      out = with_bevameter(Soil{.name = "grains"}, fit_bevameter(sets, rings), any.between(500, 3000), "virtual");
+    } catch (const InputError&) {
+      ++refused;
+      continue;
+    }
+    SCOPED_TRACE(fmt::format("seed {}:\n{}", seed, write_soil(out)));
+    Soil again;
+    ASSERT_NO_THROW(again = parse_soil({.file = "soil.yaml", .text = write_soil(out)}));
+    for (const SoilParameter& p : soil_parameters) {
+      EXPECT_EQ(((*again.semi_empirical).*p.value).value, ((*out.semi_empirical).*p.value).value) << p.name;
+      EXPECT_EQ(((*again.semi_empirical).*p.value).std_error, ((*out.semi_empirical).*p.value).std_error) << p.name;
+    }
+    EXPECT_EQ(again.semi_empirical->density, out.semi_empirical->density);
+    ++read;
+  }
+  EXPECT_GT(read, 100);
+  EXPECT_GT(refused, 20);
 }
 
 TEST(Bevameter, RefusesTooLittle) {

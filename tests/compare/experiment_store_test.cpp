@@ -5,10 +5,12 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <fstream>
 #include <numbers>
 #include <random>
 
+#include "compare/failure_map/incline_map.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
 #include "tests/compare/stand_in_board.hpp"
@@ -55,6 +57,64 @@ TEST(ExperimentStores, KeepEveryBit) {
   EXPECT_EQ(found->results[0].value, std::numbers::pi);
   EXPECT_EQ(found->results[0].std_error, 1e-300);
   EXPECT_FALSE(store.find(test, {values, 1}));
+}
+
+/// What a failure map keeps of grains: four channels at values of its four factors, or why a run has no answer.
+struct MapRuns {
+  VirtualTest test{.identity = "grains\nbed.version 5",
+                   .factors = {{"load", 300, 900, "N"},
+                               {"lug height", 0, 0.02, "mm"},
+                               {"angle", 0, 0.2, "deg"},
+                               {"slip", 0.05, 0.4, "%"}},
+                   .targets = grain_channels(),
+                   .run = {}};
+  std::mt19937_64 random;
+  explicit MapRuns(std::uint64_t seed) : random(seed) {}
+
+  /// Any finite number, the smallest and the largest with it.
+  double number() {
+    const double sign = random() % 2 == 0 ? 1 : -1;
+    return sign * std::ldexp(1 + std::generate_canonical<double, 53>(random), static_cast<int>(random() % 2045) - 1022);
+  }
+  Experiment run() {
+    Experiment one{(VectorXd(4) << number(), number(), number(), number()).finished(), random()};
+    if (random() % 4 == 0)
+      one.error = "the wheel digs itself in: \"80 %\"\nof its radius, \xc2\xb1 1";
+    else
+      for (int k = 0; k < 4; ++k) one.results.push_back({number(), std::abs(number())});
+    one.seconds = std::abs(number());
+    return one;
+  }
+};
+
+// The runs alone: what a map learns from them takes minutes, and is kept nowhere.
+TEST(ExperimentStores, WhatAFailureMapWritesIsReadToTheSameBits) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Folder folder;
+    MapRuns map(seed);
+    std::vector<Experiment> made;
+    {
+      ExperimentStore store(folder / "map.json");
+      for (int k = 0; k < 12; ++k) store.add(map.test, made.emplace_back(map.run()));
+    }
+    const ExperimentStore store(folder / "map.json");
+    ASSERT_EQ(store.size(), made.size());
+    EXPECT_EQ(store.unsealed(), 0U);
+    for (const Experiment& one : made) {
+      const std::optional<Experiment> found = store.find(map.test, {one.values, one.seed});
+      ASSERT_TRUE(found);
+      EXPECT_EQ(found->error, one.error);
+      EXPECT_EQ(found->seconds, one.seconds);
+      ASSERT_EQ(found->results.size(), one.results.size());
+      for (std::size_t k = 0; k < one.results.size(); ++k) {
+        EXPECT_EQ(found->results[k].value, one.results[k].value);
+        EXPECT_EQ(found->results[k].std_error, one.results[k].std_error);
+      }
+    }
+    ExperimentStore copy(folder / "copy.json");
+    copy.merge(folder / "map.json");
+    EXPECT_EQ(copy.text(), store.text());
+  }
 }
 
 // Each began with what was there before the other's first experiment; what is in the journal is there too.
