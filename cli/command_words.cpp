@@ -36,7 +36,7 @@ const Elsewhere elsewhere[] = {
      "limits looks for the slip and the slope; soilbin estimate answers at those that are given"},
     {{"run", "compare", "sweep"},
      {"--tire", "--soil", "--radius", "--width", "--lug-height"},
-     "it takes a case file, where tire and soil stand: soilbin init mine writes one to change; soilbin estimate takes "
+     "it takes a case file, which has tire and soil: soilbin init mine writes one to change; soilbin estimate takes "
      "them as flags"}};
 
 std::string sent_elsewhere(const std::string& command, const std::string& flag) {

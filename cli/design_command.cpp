@@ -68,7 +68,7 @@ int design(const DesignFlags& asked, const Session& session) {
 }  // namespace
 
 void add_design(CLI::App& app, Session& session) {
-  CLI::App* command = app.add_subcommand("design", "the runs that tell effects apart best, before any is made");
+  CLI::App* command = app.add_subcommand("design", "the runs that separate effects best, before any is made");
   const auto asked = std::make_shared<DesignFlags>();
   add_value(*command, "campaign", asked->campaign, "CAMPAIGN",
             "a campaign of the library, or its folder; it needs no runs yet")
@@ -77,7 +77,7 @@ void add_design(CLI::App& app, Session& session) {
   add_limits_of_the_rig(*command, asked->limits,
                         "range that the rig can reach, where it is not that of the runs made; repeatable");
   add_value(*command, "--effect", asked->effects, "ID",
-            "effect to tell apart; repeatable; all that these ranges can show")
+            "effect to separate; repeatable; all that these ranges can show")
       ->allow_extra_args(false);
   add_value(*command, "--noise", asked->noise, "CHANNEL=SD",
             "standard deviation of one run, for each channel that is measured; repeatable; 2 % of its range")

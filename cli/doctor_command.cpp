@@ -25,7 +25,7 @@ int doctor(bool json, const Session& session) {
   if (!well) text += "  not found: set SOILBIN_CASES to a folder with tires/, soils/ and studies/\n";
   for (const Shelf shelf : {Shelf::tires, Shelf::soils, Shelf::studies, Shelf::measured})
     text += fmt::format("  {} {}\n", library.names(shelf).size(), folder_of(shelf));
-  text += "\nSelf-test: wheels that two independent codes compute alike, to the last digit told\n";
+  text += "\nSelf-test: wheels that two independent codes compute alike, to the last digit shown\n";
   for (const bekker_wong::AgreedPoint& point : bekker_wong::agreed_points()) {
     const double off = worst_difference(point, reading_at(point));
     const bool pass = off <= 1.0;

@@ -252,9 +252,8 @@ int list(const std::string& what, bool json, bool names, const Session& session)
   }
   for (const ShelfView& view : shelf_views())
     if (const auto file = session.place.library.find(view.shelf, what))
-      throw InputError(fmt::format("'{0}' stands in the list of {1}\n  hint: soilbin list {1}; the whole of it: {2}",
-                                   what, view.shelf == Shelf::measured ? "measured" : folder_of(view.shelf),
-                                   file->string()));
+      throw InputError(fmt::format("'{0}' is in the list of {1}\n  hint: soilbin list {1}; the whole of it: {2}", what,
+                                   view.shelf == Shelf::measured ? "measured" : folder_of(view.shelf), file->string()));
   throw InputError("can't list '" + clipped(what) + "'" + did_you_mean(what, right) + "\n  hint: one of " +
                    listed(right));
 }

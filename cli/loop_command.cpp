@@ -13,7 +13,7 @@
 namespace soilbin::cli {
 namespace {
 
-struct LoopOptions {
+struct LoopFlags {
   OutputFlags outputs;
   std::string campaign, model;
   std::vector<std::string> limits;
@@ -33,7 +33,7 @@ void tell_only_next(compare::Report& report, const compare::LoopAnswer& answer) 
   report.add(compare::Sentences(next), Told::on_terminals);
 }
 
-int loop(const LoopOptions& asked, const Session& session) {
+int loop(const LoopFlags& asked, const Session& session) {
   const compare::Campaign campaign = find_campaign(session.place, asked.campaign, compare::CampaignUse::fit);
   const compare::Doubts doubts = compare::doubts_before_fit(campaign);
   compare::LoopOptions options;
@@ -62,7 +62,7 @@ int loop(const LoopOptions& asked, const Session& session) {
 void add_loop(CLI::App& app, Session& session) {
   CLI::App* command =
       app.add_subcommand("loop", "find what the model lacks beside measured runs, and what to measure next");
-  const auto asked = std::make_shared<LoopOptions>();
+  const auto asked = std::make_shared<LoopFlags>();
   add_value(*command, "campaign", asked->campaign, "CAMPAIGN", "a campaign of the library, or its folder")->required();
   asked->outputs.add_to(*command, {.json = "the answer as JSON, soilbin-loop/1"});
   add_file(*command, "--save-model", asked->model, "FILE.yaml",
@@ -77,7 +77,7 @@ void add_loop(CLI::App& app, Session& session) {
   add_value(*command, "--seed", asked->seed, "N", "seed of the simulations and the folds");
   CLI::Option* const json = command->get_option("--json");
   json->excludes(next);  // it says all, and what is next under next_test
-  command->add_flag("--details", asked->details, "with --json: what stands behind the answer")->needs(json);
+  command->add_flag("--details", asked->details, "with --json: the intermediate results")->needs(json);
   command->footer("Example: soilbin loop cmu-smooth --report loop.html --save-model fitted.yaml");
   command->callback([=, &session] { session.action = [=, &session] { return loop(*asked, session); }; });
 }

@@ -102,7 +102,7 @@ std::string misspelt(const CLI::App& app, const std::vector<std::string>& words)
   if (first.starts_with("-"))
     return first == "--help" || first == "-h" || first == "--version"
                ? ""
-               : fmt::format("'{}' stands where a command is to be\n  hint: soilbin --help lists them", clipped(first));
+               : fmt::format("'{}' is where a command is expected\n  hint: soilbin --help lists them", clipped(first));
   const CLI::App* command = nullptr;
   std::vector<std::string> commands;
   for (const CLI::App* known : app.get_subcommands({})) {

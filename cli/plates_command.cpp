@@ -48,7 +48,7 @@ void add_plates(CLI::App& app, Session& session) {
   add_value(*command, "--pressure", options->pressure, "LOW..HIGH",
             "readings that are used; best those that your wheel makes");
   add_value(*command, "--plate", options->plate, "DIAMETER",
-            "of the one round plate of all tests, where no column tells it");
+            "of the one round plate of all tests, where no column gives it");
   options->outputs.add_to(*command, {.json = "soilbin-plates/1, in SI", .plot = "draw the readings and Bekker's form"});
   command->footer("Example: soilbin plates plates.csv --only box=large-box --pressure 1kPa..30kPa --plot plates.svg");
   command->callback([=, &session] { session.action = [=, &session] { return plates(*options, session); }; });

@@ -46,7 +46,7 @@ Predictor predictor_for(const PredictOptions& options, const compare::Campaign& 
   const bool to_these = fitted.source == compare::source_of_fit(campaign.name);
   return {
       ModelKind::bekker_wong, seen_by(fitted.study.models.front(), std::move(scenario)),
-      options.model + (to_these ? ", which was fitted to these runs: the loop tells its error on conditions left out"
+      options.model + (to_these ? ", which was fitted to these runs: the loop reports its error on conditions left out"
                                 : " and not fitted")};
 }
 

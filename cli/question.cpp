@@ -327,7 +327,7 @@ Case Question::ask(const Workplace& place) const {
   if (effects_.empty()) return question;
   ModelChoice choice;
   const bool none = std::ranges::find(effects_, "none") != effects_.end();
-  if (none && effects_.size() > 1) throw InputError("--effect none stands alone: it switches every effect off");
+  if (none && effects_.size() > 1) throw InputError("--effect none excludes all others: it switches every effect off");
   for (const std::string& text : none ? std::vector<std::string>{} : effects_)
     add_effect(choice.effects, text, place.effects, question.scenario.soil);
   question.study.models = {choice};

@@ -67,7 +67,7 @@ void check_flags_of_converge(const RunOptions& options) {
   for (const auto& [flag, is_given] : given)
     if (is_given)
       throw InputError(fmt::format(
-          "{0} means nothing beside --converge{1}, which repeats one condition on one bed and prints what changes\n  "
+          "{0} has no effect with --converge{1}, which repeats one condition on one bed and prints what changes\n  "
           "hint: leave out {0}, or --converge",
           flag, options.outputs.json && options.dry_run ? " --dry-run" : ""));
 }

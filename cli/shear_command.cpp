@@ -42,7 +42,7 @@ void add_shear(CLI::App& app, Session& session) {
       ->required();
   add_value(*command, "--only", options->only, "COLUMN=VALUE", "rows that have this value alone; may be given again")
       ->allow_extra_args(false);
-  add_value(*command, "--normal-stress", options->normal_stress, "STRESS", "of all tests, where no column tells it");
+  add_value(*command, "--normal-stress", options->normal_stress, "STRESS", "of all tests, where no column gives it");
   options->outputs.add_to(*command,
                           {.json = "soilbin-shear/1, in SI", .plot = "draw the readings and Janosi's curves"});
   command->footer("Example: soilbin shear ring.csv --only bed=dense --plot ring.svg");

@@ -166,7 +166,7 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   settings.rig.patch = flags.patch;
   if (!flags.text(until_error_flag.flag).empty() && !(flags.patch && flags.text("--travel").empty()))
     throw InputError(
-        "--until-error has no effect: it ends a run on a moving patch whose way is not told\n  hint: "
+        "--until-error has no effect: it ends a run on a moving patch whose travel is not given\n  hint: "
         "--patch, without --travel");
   settings.settling_friction = read_settling_friction(flags.text("--settling-friction"), settings.settling_friction);
   if (flags.packing < 0) throw InputError("--packing: a seed is 0 or more");
@@ -206,7 +206,7 @@ void SoilBinFlags::add_rig_to(CLI::App& command) {
   add_measures_to(command);
   add_value(command, wheel_mesh_flag, texts[wheel_mesh_flag], "FILE.stl|obj",
             "the wheel as drawn, a mesh as large as the tire, in place of the one that is made from the tire's "
-            "measures; soilbin mesh FILE tells what is in it")
+            "measures; soilbin mesh FILE shows what is in it")
       ->group(grains_heading);
   add_seed_to(command);
 }

@@ -195,15 +195,15 @@ PlateCurve used_of(const MeasuredPlate& plate, const PressureWindow& window, Mea
   if (used.pressure.size() >= fewest_readings) return used;
   const bool on_curve = loading.readings.size() >= fewest_readings,
              enough = plate.curve.pressure.size() >= fewest_readings;
-  throw InputError(fmt::format(
-      "{} of the plate of b = {:g} mm has {} with a pressure and a sinkage above 0{}{}; {} are needed\n  "
-      "hint: {}",
-      test_in_words(plate.test), 1000 * plate.curve.radius, counted(used.pressure.size(), "reading"),
-      enough && !on_curve ? " on its loading curve" : "", on_curve ? " in the window" : "", fewest_readings,
-      on_curve ? "widen --pressure"
-      : enough ? "the others are spikes, unloading, or a sinkage that stands still under rising pressure: is a sensor "
-                 "stuck? Leave this test out"
-               : "more readings of this test, or leave it out; a negative one is not counted"));
+  throw InputError(
+      fmt::format("{} of the plate of b = {:g} mm has {} with a pressure and a sinkage above 0{}{}; {} are needed\n  "
+                  "hint: {}",
+                  test_in_words(plate.test), 1000 * plate.curve.radius, counted(used.pressure.size(), "reading"),
+                  enough && !on_curve ? " on its loading curve" : "", on_curve ? " in the window" : "", fewest_readings,
+                  on_curve ? "widen --pressure"
+                  : enough ? "the others are spikes, unloading, or constant sinkage under rising pressure: is a sensor "
+                             "stuck? Leave this test out"
+                           : "more readings of this test, or leave it out; a negative one is not counted"));
 }
 
 /// Takes the tests out that the others disown, and notes them.
@@ -345,12 +345,11 @@ MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, con
 
 std::string in_words(const PlateTestApart& one) {
   const double factor = one.apart.factor;
-  std::string text =
-      fmt::format("{} of the plate of b = {:g} mm{} {} what the other tests let expect at the same sinkage",
-                  test_in_words(one.test), 1000 * one.radius,
-                  one.first_line > 0 ? fmt::format(" (lines {} to {})", one.first_line, one.last_line) : "",
-                  factor >= 1 ? fmt::format("bears {} times", number(factor, 3))
-                              : fmt::format("bears 1/{} of", number(1 / factor, 3)));
+  std::string text = fmt::format(
+      "{} of the plate of b = {:g} mm{} {} what the other tests predict at the same sinkage", test_in_words(one.test),
+      1000 * one.radius, one.first_line > 0 ? fmt::format(" (lines {} to {})", one.first_line, one.last_line) : "",
+      factor >= 1 ? fmt::format("bears {} times", number(factor, 3))
+                  : fmt::format("bears 1/{} of", number(1 / factor, 3)));
   if (!one.apart.unit.empty()) text += fmt::format(", as if it had {}", one.apart.unit);
   return text + (one.apart.set_aside ? "; it was set aside." : "; it was kept.");
 }

@@ -38,8 +38,8 @@ constexpr std::array<ShearLimits, 3> shear_limits = {{
 }};
 
 constexpr const char* shear_columns_hint =
-    "columns: displacement_mm, shear_stress_kPa, normal_stress_kPa, in any unit, and those without a unit that tell "
-    "tests apart, such as test";
+    "columns: displacement_mm, shear_stress_kPa, normal_stress_kPa, in any unit, and those without a unit that "
+    "identify the tests, such as test";
 
 ShearColumn shear_column(const std::string& header) {
   const std::optional<NamedUnit> named = name_and_unit(header);
@@ -102,7 +102,7 @@ std::vector<MeasuredShear> read_shear(const SourceText& csv,
     csv.refuse(at, "no column holds the normal stress",
                std::string(shear_columns_hint) + "; or --normal-stress 93kPa where every test was under one");
   if (normal && normal_stress)
-    throw InputError(fmt::format("--normal-stress: {} tells the normal stress of its tests itself", csv.file));
+    throw InputError(fmt::format("--normal-stress: {} gives the normal stress of its tests itself", csv.file));
 
   const std::vector<const CsvRow*> rows = rows_of(table, csv, only);
   for (std::size_t i = 0; i < columns.size(); ++i)

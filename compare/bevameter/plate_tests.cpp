@@ -39,7 +39,7 @@ struct PlateColumn {
 
 constexpr const char* columns_hint =
     "columns: sinkage_m, pressure_kPa (or force_N), plate_diameter_m (or plate_radius_m, plate_width_m), in any unit, "
-    "and those without a unit that tell tests apart, such as test";
+    "and those without a unit that identify the tests, such as test";
 
 /// A name and, behind its last '_', a unit of the dimension that it must have; no value where it isn't one.
 std::optional<PlateColumn> measured_column(const std::string& name) {
@@ -94,13 +94,13 @@ void need_columns(const std::vector<PlateColumn>& columns, const CsvTable& table
   one({Holds::pressure, Holds::force}, "the pressure");
   const std::initializer_list<Holds> sizes = {Holds::diameter, Holds::radius, Holds::width, Holds::plate_label};
   if (size_is_told && count(sizes) > 0)
-    throw InputError(fmt::format("--plate: {} tells the size of its plates itself", csv.file));
+    throw InputError(fmt::format("--plate: {} gives the size of its plates itself", csv.file));
   if (!size_is_told && count(sizes) == 0)
     csv.refuse(at, "no column holds the size of the plate",
                std::string(columns_hint) + "; or --plate DIAMETER where every test was with one round plate");
   if (!size_is_told) one(sizes, "the size of the plate");
   if (count({Holds::force}) > 0 && count({Holds::width}) > 0)
-    csv.refuse(at, "a force on a strip gives no pressure: its length is not told", columns_hint);
+    csv.refuse(at, "a force on a strip gives no pressure: its length is not given", columns_hint);
 }
 
 /// 0 in an empty cell: nothing was measured, and no reading counts there.
@@ -120,7 +120,7 @@ double diameter_in(const CsvCell& cell, const SourceText& csv) {
       continue;
     }
   }
-  csv.refuse(cell.offset, fmt::format("'{}' tells no size of a plate", clipped(text)),
+  csv.refuse(cell.offset, fmt::format("'{}' gives no size of a plate", clipped(text)),
              "a label such as 'plate_d60mm' does, or a column plate_diameter_mm");
 }
 

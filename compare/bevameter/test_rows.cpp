@@ -67,7 +67,7 @@ void need_label_of_tests(const std::vector<const CsvRow*>& rows, std::size_t col
   for (const CsvRow* row : rows) values.insert(row->cells[column].text);
   if (2 * values.size() <= std::max<std::size_t>(rows.size(), 6)) return;
   csv.refuse(table.header.cells[column].offset,
-             fmt::format("column '{}' has no unit, so it tells tests apart, and it has {} values in {} rows",
+             fmt::format("column '{}' has no unit, so it identifies tests, and it has {} values in {} rows",
                          clipped(table.header.cells[column].text), values.size(), rows.size()),
              "take it out of the file, or let its name end in its unit (time_s): then it is left aside");
 }

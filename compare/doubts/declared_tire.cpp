@@ -77,7 +77,9 @@ void make_rigid(Case& question, Doubts& notes) {
     throw InputError(
         "--rigid: a model of the question has the effect tire_flexibility\n  hint: leave one of the two out");
   if (std::ranges::any_of(question.study.conditions, [](const auto& at) { return at.inflation_pressure.has_value(); }))
-    throw InputError("--rigid: a rigid wheel has no inflation pressure, and a condition tells one");
+    throw InputError(
+        "--rigid: a rigid wheel has no inflation pressure, and a condition gives one\n  hint: leave one of the two "
+        "out");
   std::optional<double>& pressure = question.scenario.tire.inflation_pressure;
   if (!pressure) notes.push_back({DoubtKind::rigid_already});
   pressure.reset();

@@ -36,8 +36,8 @@ constexpr DoubtSentence sentences[] = {
     D(unusual_gravity, "gravity = {:.4g} m/s^2 is outside {:.4g} .. {:.4g}: the Moon has 1.62, Earth 9.81"),
     D(unusual_radius, "the wheel's radius = {:.4g} mm is outside {:.4g} .. {:.4g}: the model is tested from 50 mm to 2 "
       "m"),
-    D(carries_nothing, "neither k_c nor k_phi is positive: this soil carries nothing, at any width of wheel"),
-    D(carries_nothing_at_width, "k_c/b + k_phi is not positive for this width: the soil carries nothing"),
+    D(carries_nothing, "neither k_c nor k_phi is positive: this soil carries no load at any wheel width"),
+    D(carries_nothing_at_width, "k_c/b + k_phi is not positive for this width: the soil carries no load"),
     D(no_strength, "c and phi are both 0: this soil has no strength and gives no traction"),
     D(usual_stress_angle, "the soil declares no {}: {:g} with a standard deviation of {:g} is taken, a usual value"),
     D(stress_angles_limited, "c1 + c2 = {:.3g}: at full slip theta_m is limited to {} theta_1"),
@@ -52,7 +52,7 @@ constexpr DoubtSentence sentences[] = {
     D(wider_than_high, "the wheel is wider ({:.4g} mm) than its diameter ({:.4g} mm)"),
     D(high_lugs, "the lugs ({:.4g} mm) are higher than 30 % of the radius"),
     D(no_solution, "no solution{at}: {error}"),
-    D(standing_wheel, "at a speed of 0 a wheel stands still or slips by 100 %; the answer is that of a very slow "
+    D(standing_wheel, "at a speed of 0 a wheel is at rest or slips by 100 %; the answer is that of a very slow "
       "wheel{at}"),
     D(power_from_nothing, "drawbar power exceeds the power put in{at}: an instrument error, or an effect that adds "
       "one; no efficiency is given"),
@@ -64,8 +64,8 @@ constexpr DoubtSentence sentences[] = {
     D(bin_floor, "the wheel sinks {:.0f} % of the bin's depth{at}: its floor acts on the wheel; add --effect "
       "hard_layer"),
     D(short_contact, "K ({:.3g} mm) is longer than the contact ({:.3g} mm){at}: shear hardly develops"),
-    D(large_deflection, "the tire deflects by {:.3g} mm{at}, {:.0f} % of its radius: tires bear about 10 %, and {:.0f} "
-      "% at the most. Raise the inflation pressure or lower the load"),
+    D(large_deflection, "the tire deflects by {:.3g} mm{at}, {:.0f} % of its radius: tires are built for about 10 %, "
+      "at most {:.0f} %. Raise the inflation pressure or lower the load"),
     D(beyond_deflections, "{:N} at {:.4g} kPa lie outside the tire's load-deflection table ({}){at}: the stiffness of "
       "its edge is taken"),
     D(flattens, "the tire flattens{at} (inflation {:.4g} kPa and carcass {:.4g} kPa){:?: as a rigid wheel it pulls "
@@ -73,8 +73,8 @@ constexpr DoubtSentence sentences[] = {
     D(pull_without_slip, "the wheel pulls {:.2g} of its load{at}: even there the model shears the soil by up to {:.3g} "
       "mm under a radius of {:.4g} mm, and K is {:.3g} mm. A wheel that pulls slips: take pulls at less than 5 % slip "
       "as upper bounds"),
-    D(beyond_learned, "the learned effect ({}) knows no such {}: its value at the edge of what it was learned from is "
-      "taken{at}"),
+    D(beyond_learned, "the learned effect ({}) was learned from another range of the {}: its value at the edge of "
+      "that range is used{at}"),
     D(errors_left_out, "the standard errors leave out the soil's {}"),
     D(lugs_ignored, "lugs are ignored: add {1} (estimate, explain, limits and run do where they ask one model)"),
     D(lug_count_ignored, "the number of lugs is ignored: add {1}"),
@@ -102,13 +102,14 @@ constexpr DoubtSentence sentences[] = {
     D(rigid_already, "--rigid is ignored: the tire declares no inflation pressure and is rigid"),
     D(smooth_already, "--no-lugs is ignored: the tire declares no lugs and is smooth"),
     D(ignored_by_rft, "rft ignores {}"),
-    D(rft_values_estimated, "rft: xi_n = {:.3g} ± {:.2g} MN/m^3 and surface friction {:.2g} ± {:.1g} are estimated from "
-      "the soil's density and friction angle: declare 'resistive_force', from plates"),
-    D(rft_without_cohesion, "rft has no cohesion, and this soil has {:.3g} kPa: it sinks too deep and pulls too little"),
+    D(rft_values_estimated, "rft: xi_n = {:.3g} ± {:.2g} MN/m^3 and surface friction {:.2g} ± {:.1g} are estimated "
+      "from the soil's density and friction angle: declare 'resistive_force', from plates"),
+    D(rft_without_cohesion, "rft has no cohesion, and this soil has {:.3g} kPa: it sinks too deep and pulls too "
+      "little"),
     D(presumed, "{}"),
     D(density_assumed, "the soil declares no density: {:g} kg/m^3 is assumed, and the answers depend on it"),
-    D(exact_carcass, "effect {0} reads the carcass pressure, and {1:.4g} kPa count as exact: what that is off is "
-      "blamed on whatever looks like it; give it an sd, carcass_pressure: {{value: {1:.4g} kPa, sd: ...}}"),
+    D(exact_carcass, "effect {0} takes the carcass pressure, {1:.4g} kPa, as exact: an error in it would be "
+      "attributed to another effect; give it an sd, carcass_pressure: {{value: {1:.4g} kPa, sd: ...}}"),
     D(taken_as_flexible, "the tire is taken as flexible where the soil presses with more than its {:.4g}{:? .. {:.4g}} "
       "kPa of inflation and carcass (effect {}, form {}); --rigid for the rigid wheel"),
     D(taken_by_table, "the tire is taken as flexible, by its load-deflection table (effect {}, form {}); --rigid for "
@@ -134,11 +135,11 @@ constexpr DoubtSentence sentences[] = {
     D(coarse_grains, "the grains are coarse for this wheel{:?: estimated error {}}{in}{:?: the error is unknown, since "
       "{}}. Mean diameter {:.3g} mm: {:.2g} across its width ({} wanted){:?, {:.2g} along its contact}{:? ({})}{:?, "
       "{:.2g} in a lug's height}{:? ({})}. See docs/lab/grain-size.md"),
-    D(narrow_bed, "the bed is {:.3g} tire widths wide, and its walls hold the soil: at 2 widths the paper's tire "
+    D(narrow_bed, "the bed is {:.3g} tire widths wide, so its walls support the soil: at 2 widths the paper's tire "
       "pulled 17 ± 4 % more than at 2.6; take {:.3g} m or more"),
     D(bed_density, "the grains' bed is {} ({:.0f} kg/m^3) than the soil of the analytic model's values ({:.0f} "
       "kg/m^3): measure the values on this bed (soilbin bevameter, then --soil)"),
-    D(step_untested, "nobody tested whether the grains' answers depend on the time step: the record holds no run at "
+    D(step_untested, "not verified that the grains' answers are independent of the time step: the record has no run at "
       "half of it (soilbin run STUDY --model dem --record FILE --half-step yes makes one)"),
     D(step_matters, "the grains' answers depend on the time step: {}"),
     D(earlier_engine, "{} of the experiments were made by an earlier engine, whose shear springs did not turn with the "
@@ -153,13 +154,13 @@ constexpr DoubtSentence sentences[] = {
     D(forces_not_turned_to_wheel, "forces of {} of {:#run} left out: turning them from the axes of travel to the "
       "wheel's takes both drawbar pull and lateral force"),
     D(no_reruns, "no setpoint was run twice: the scatter is not known ({})"),
-    D(mixed_setpoints, "runs of more than one setpoint: what sets these apart is not in the error"),
+    D(mixed_setpoints, "runs of more than one setpoint: the error leaves out the differences between setpoints"),
     D(rows_are_samples, "the rows look like samples of a time log, not like runs: {1:?column '{}' is a clock with even "
       "steps}{2:?{:.3g} rows on end have the number of one run}{3:?{} rows on end are at one setpoint}{4:?slip and "
       "load hardly change from row to row over {} rows}{5:?, and follow each other smoothly (autocorrelation of the "
       "{}}{6:? {:.2f})}. Samples of one run share its bed; counted as runs they make errors too small and can look "
       "like an effect. One row a run: soilbin runs '{0}'"),
-    D(several_wheels, "column '{}' names {} wheels ({}): a campaign is of one wheel, so make one of each"),
+    D(several_wheels, "column '{}' names {} wheels ({}): a campaign has one wheel: make a campaign of each"),
     D(sinkage_beyond_wheel, "a measured sinkage of {:.4g} mm is more than the wheel's diameter: is the column's unit "
       "right?"),
     D(pull_beyond_load, "a drawbar pull of {:N} is more than three times the load: are the units of both right?"),
@@ -170,7 +171,7 @@ constexpr DoubtSentence sentences[] = {
     D(renumbered_rows, "{} of {} rows have all values of an earlier one, under another number: were they copied? They "
       "would count twice"),
     D(repeated_row, "all its values are those of line {}: counted twice"),
-    D(repeated_number, "run {} stands in line {} already"),
+    D(repeated_number, "run {} is in line {} already"),
     D(flipped_sign, "{}column '{}' looks as if its sign were flipped: with the other sign the prediction fits far "
       "better; change the sign in the file if so: positive {}"),
     D(column_too_large, "{0}column '{1}' looks {2:g} times too large: with its values divided by {2:g}" LOOK_AT_UNIT),
@@ -187,32 +188,32 @@ constexpr DoubtSentence sentences[] = {
     D(load_swapped, "{}the columns '{}' and '{}' look swapped: exchanged, they fit the prediction far better; look at "
       "the header{:?, and at 'columns:' in {}}"),
     D(plate_test_apart, "{}"),
-    D(sensor_stuck, "test '{}', b = {:g} mm: at a sinkage of {:n3} mm that stands still the pressure rises from {:n3} "
-      "kPa on; those {:#reading} were set aside: does the depth sensor stick, or stand at its end, or is there hard "
-      "ground?"),
-    D(many_spikes, "{} of {} readings jump off those around them and were set aside: so many are no chance; look at "
+    D(sensor_stuck, "test '{}', b = {:g} mm: the sinkage stays at {:n3} mm while the pressure rises from {:n3} "
+      "kPa on; {:#reading} set aside: does the depth sensor stick, is it at the end of its range, or is the ground "
+      "hard there?"),
+    D(many_spikes, "{} of {} readings are spikes and were set aside: too many to be chance; check "
       "the sensors"),
-    D(one_plate_size, "plates of one size do not part k_c from k_phi: k_c = 0 and k_phi = k hold for wheels of about b "
-      "= {:g} mm alone; press in a second size"),
-    D(negative_modulus, "{} is negative: Bekker's form doesn't hold over these plates; the values are good for widths "
-      "of {:g} to {:g} mm, and for no other"),
+    D(one_plate_size, "plates of one size can't separate k_c and k_phi: k_c = 0 and k_phi = k are valid for wheels of "
+      "about b = {:g} mm only; test a second size"),
+    D(negative_modulus, "{} is negative: Bekker's form does not describe these plates; the values are valid for widths "
+      "of {:g} to {:g} mm only"),
     D(unusual_plate_exponent, "n = {:n3}: most plate tests give 0.1 .. 1.6; do the readings start where the plate "
       "touches the soil?"),
-    D(scattered_plate_tests, "tests of one plate bear pressures that scatter by {:.3g} % from one to the other: were "
-      "they on one soil of one density? --only COLUMN=VALUE takes a part of them"),
-    D(no_repeated_plates, "no plate was pressed in twice: the errors hold no scatter between tests"),
+    D(scattered_plate_tests, "pressures of tests with one plate scatter by {:.3g} %: were "
+      "they made on the same soil at the same density? --only COLUMN=VALUE selects tests"),
+    D(no_repeated_plates, "no plate test was repeated: the errors leave out the scatter between tests"),
     D(halves_not_compared, "low and high pressures can't be compared: some test has too few readings in a half; the "
-      "errors hold nothing of a soil that is no power law"),
+      "errors leave out how far the soil departs from a power law"),
     D(form_misses, "Bekker's form misses the pressures by {:.3g} %: fit over the pressures that your wheel makes "
       "(--pressure)"),
-    D(one_normal_stress, "one normal stress ({:.3g} kPa) does not part c from phi: phi is given with c = 0, and is good "
-      "for about this stress"),
-    D(shear_falls_again, "{} of {:#test} fall again behind a peak: Janosi's curve keeps tau_max for ever; a wheel that "
-      "slips much meets the residual strength (effect shear_hump)"),
-    D(few_shear_tests, "{:#test}: c and phi have no error, which takes three"),
-    D(shear_gives_back, "the soil's shear gives back {:.3g} J, {:.2g} % of the work that presses the soil: where the "
-      "tread slides forward again its stress goes back as it came, at the pressure that acts by then. No soil does "
-      "that: what brakes the wheel is too little by about this share"),
+    D(one_normal_stress, "one normal stress ({:.3g} kPa) can't separate c and phi: phi is given with c = 0, valid "
+      "near this stress"),
+    D(shear_falls_again, "the shear stress falls after a peak in {} of {:#test}: Janosi's curve stays at tau_max; at "
+      "high slip the residual strength acts (effect shear_hump)"),
+    D(few_shear_tests, "{:#test}: c and phi have no error; three tests are needed"),
+    D(shear_gives_back, "the soil's shear returns {:.3g} J, {:.2g} % of the work of compaction: where the tread's "
+      "slip reverses, the model unloads the shear stress along its loading curve, at the present pressure. Real soil "
+      "does not return it: the resistance is too small by about this share"),
     D(grains_left_out, "the study asks for grains too, which are not on this page; soilbin compare {} {} --report "
       "FILE.html shows them"),
 };

@@ -201,7 +201,7 @@ std::vector<Target> targets_of(const Soil& soil, ContactKind kind) {
         "what did the board measure?\n  hint: --target board_angle=31.47deg, or with its error --target "
         "board_angle=31.47deg,0.5deg");
   if (!soil.semi_empirical)
-    throw InputError("the soil tells no friction angle and cohesion to reach\n  hint: --target friction_angle=31deg");
+    throw InputError("the soil gives no friction angle and cohesion to reach\n  hint: --target friction_angle=31deg");
   std::vector<Target> targets;
   if (soil.semi_empirical->friction_angle.value > 0)
     targets.push_back({"friction_angle", soil.semi_empirical->friction_angle, "deg"});

@@ -80,7 +80,7 @@ std::vector<IgnoredColumn> leave_out(CsvTable& table, const YamlNode* ignored, c
   for (const YamlNode& item : ignored->items) {
     const std::string name = read_text(item, reading);
     if (renames.contains(name))
-      reading.refuse(item, fmt::format("'{}' stands under 'columns' and under 'ignored'", clipped(name)));
+      reading.refuse(item, fmt::format("'{}' is under 'columns' and under 'ignored'", clipped(name)));
     const auto& cells = table.header.cells;
     const auto place = std::ranges::find(cells, name, &CsvCell::text) - cells.begin();
     if (place == std::ssize(cells)) continue;  // a misspelt name leaves its column unknown, and that is refused
@@ -163,7 +163,7 @@ std::vector<ColumnChoice> choose_columns(const CsvTable& table, Renames& renames
         !beside.empty() && std::none_of(choices.begin(), choices.end(),
                                         [&](const ColumnChoice& c) { return c.column->canonical == beside; }))
       csv.refuse(table.header.cells[i].offset,
-                 fmt::format("column '{}' tells the scatter of '{}', and that column is missing",
+                 fmt::format("column '{}' gives the scatter of '{}', and that column is missing",
                              clipped(table.header.cells[i].text), beside));
   for (const RunColumn& column : run_columns())
     if (column.required && !present(column))
@@ -185,7 +185,7 @@ void add_speeds(Campaign& campaign, const CsvTable& table, const SourceText& csv
         csv.refuse((row == 0 ? table.header : table.rows[row - 1]).cells[i].offset, why);
   };
   if (speed != campaign.columns.end())
-    refuse(0, fmt::format("columns '{}' and '{}' both tell the speed", speed->second.header, rotation->second.header));
+    refuse(0, fmt::format("columns '{}' and '{}' both give the speed", speed->second.header, rotation->second.header));
   for (std::size_t i = 0; i < campaign.runs.size(); ++i) try {
       Run& run = campaign.runs[i];
       const bool locked = run.rotation == 0.0 && run.at.slip <= -1.0;

@@ -109,7 +109,7 @@ CampaignOfRecords campaign_from_runs(const Scenario& scenario, const std::vector
     made.campaign.runs.push_back(row);
     made.runs.push_back(run);
   }
-  if (made.runs.empty()) throw InputError("no run is left to tell of");
+  if (made.runs.empty()) throw InputError("no run is left");
   return made;
 }
 

@@ -274,8 +274,9 @@ void put_in_order(Record& record) {
 std::string unsealed_note(const Record& record, const std::filesystem::path& file) {
   const auto bare = std::ranges::count_if(record.runs, [](const auto& run) { return !run.sealed; });
   if (bare == 0) return "";
-  return fmt::format("{}: {} of its {} runs carry no seal, as from before there were any: damage to them can't be told",
-                     file.string(), bare, record.runs.size());
+  return fmt::format(
+      "{}: {} of its {} runs carry no seal, as from before there were any: damage to them can't be detected",
+      file.string(), bare, record.runs.size());
 }
 
 Json record_schema() {

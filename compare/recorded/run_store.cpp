@@ -70,7 +70,7 @@ void refuse_another_question(const NamedRecord& first, const NamedRecord& other)
   if (other.record.question != first.record.question && case_today(other) != case_today(first))
     throw InputError(
         fmt::format("{} and {} were begun with different cases\n  hint: all shards take the same study; 'soilbin "
-                    "record show' tells which a record was begun with",
+                    "record show' shows which a record was begun with",
                     first.file.string(), other.file.string()));
 }
 

@@ -63,7 +63,7 @@ std::string in_words(const StepPair& pair) {
     words += fmt::format("{}{} by {:.3g} ± {:.2g} {} ({:.1f} errors)", c == 0 ? "" : ", ", channel.title,
                          of.value * channel.per_si, of.std_error * channel.per_si, channel.unit, in_errors(of));
   }
-  return words + (pair.widened ? "; the errors hold the scatter between bed samples" : "");
+  return words + (pair.widened ? "; the errors include the scatter between bed samples" : "");
 }
 
 Doubts step_doubts(const Record& record) {

@@ -205,7 +205,7 @@ std::string errors_in_words(const Scenario& asked) {
   std::string together =
       asked.errors.empty() ? "" : " The model's fit says how values of the soil and of its effects err together.";
   if (const double missed = asked.misfit.front(); missed > 0.0)
-    together += fmt::format(" It holds the fit's own misfit, in the drawbar pull {}.", newtons(missed));
+    together += fmt::format(" It includes the fit's own misfit, in the drawbar pull {}.", newtons(missed));
   if (declared.empty() && assumed.empty())
     return together.empty() ? "No ±: all values of the soil count as exact." : "± is one standard error." + together;
   std::string text = "± is one standard error from the standard deviations of ";

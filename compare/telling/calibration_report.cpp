@@ -82,7 +82,7 @@ std::vector<std::string> decision_sentences(const Decision& decision) {
                              decision.setpoints.size() == 1 ? "" : "s"));
   if (decision.tied() > 1)
     said.push_back(fmt::format(
-        "It is not told apart from {} by two standard errors: {}, the likeliest of these on the targets, is chosen.",
+        "It does not differ from {} by two standard errors: {}, the likeliest of these on the targets, is chosen.",
         listed(tied_names(decision, decision.nearest)), candidate_name(decision.chosen)));
   if (!has_reruns(decision))
     said.push_back(
@@ -167,7 +167,7 @@ std::string order_sentence(const VirtualTest& test, const Calibration& calibrati
 std::vector<std::string> sentences_on_decision(const CalibrationOptions& options, const Calibration& calibration) {
   if (calibration.decision) return decision_sentences(*calibration.decision);
   if (!options.decide) return {};
-  return {fmt::format("No point that was run lies within {} of the targets: the soil bin had nothing to decide.",
+  return {fmt::format("No point that was run is within {} of the targets: there were no candidates for the soil bin.",
                       percent(options.near))};
 }
 
@@ -191,7 +191,7 @@ std::string decided_by(const Calibration& calibration) {
   if (!calibration.decision || !calibration.decision->decided()) return "";
   const Decision& decision = *calibration.decision;
   if (const int tied = decision.tied(); tied > 1)
-    return fmt::format("; the likeliest of {} candidates that the soil bin doesn't tell apart on {}", tied,
+    return fmt::format("; the likeliest of {} candidates that the soil bin does not separate on {}", tied,
                        decision.campaign);
   return fmt::format("; of {} candidates the nearest to {} in the soil bin", decision.trials.size(), decision.campaign);
 }

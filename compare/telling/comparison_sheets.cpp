@@ -138,7 +138,7 @@ void mark_limits(Plot& plot, const Comparison& comparison, const std::vector<std
       marks.push_back(marks_on(*series, "one bed sample: the scatter is unknown", single_color, members,
                                [&](std::size_t i, double) { return of_one_packing(side.points[i]); }));
     if (sinkage)
-      marks.push_back(marks_on(*series, "negative sinkage: the tread stands above the mean surface", negative_color,
+      marks.push_back(marks_on(*series, "negative sinkage: the tread is above the mean surface", negative_color,
                                members, [](std::size_t, double y) { return y < 0.0; }));
   }
   for (Series& mark : marks)
@@ -273,7 +273,7 @@ HeatMap heat_map_of(const Comparison& comparison, const Tally& tally) {
 
 std::pair<Bars, std::vector<int>> budget_bars(const Comparison& comparison, std::size_t condition) {
   const BudgetTable table = budget_at(comparison, condition);
-  Bars bars{"What pulls and what holds back [N]", {}, {}};
+  Bars bars{"Thrust and resistance [N]", {}, {}};
   std::vector<int> colors_of_sides;
   for (const std::size_t s : table.sides) {
     bars.sides.push_back(name_of(comparison.sides[s]));

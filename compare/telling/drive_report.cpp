@@ -159,7 +159,7 @@ std::string with_error(double value, const std::optional<double>& std_error) {
 }
 
 std::string moved_in_words(const MovedDrive::Side& side) {
-  if (!side.record) return "the soil can't hold the wheel at its start";
+  if (!side.record) return "the soil can't carry the wheel at the start";
   return fmt::format("{} after {} s and {} m", end_in_words(side.record->end), number(side.record->end_time),
                      number(side.record->samples.back().travelled));
 }

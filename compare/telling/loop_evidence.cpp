@@ -53,7 +53,7 @@ struct SignWords {
         reruns.p_value);
   }
   std::string operator()(const SerialTest& serial) const {
-    return fmt::format("the residuals of the {} are alike in runs made one after the other (p = {:.2g})",
+    return fmt::format("the residuals of the {} are correlated between successive runs (p = {:.2g})",
                        serial.channel ? channel_views[*serial.channel].title : "forces", serial.p_value);
   }
 };

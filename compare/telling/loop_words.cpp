@@ -242,7 +242,7 @@ std::string error_sentence(const LoopAnswer& answer) {
 std::string effect_sentence(const AcceptedEffect& effect) {
   const bekker_wong::EffectForm& form = bekker_wong::find_form(effect.choice);
   if (effect.choice.id == bekker_wong::learned_id)
-    return fmt::format("{} ({}): {}; it holds for {}.", capital(std::string(effect_title(effect.choice.id).name)),
+    return fmt::format("{} ({}): {}; valid for {}.", capital(std::string(effect_title(effect.choice.id).name)),
                        spaced(effect.choice.form), form.equation, learned_ranges({effect.choice}));
   std::vector<std::string> parameters;
   for (std::size_t i = 0; i < effect.fitted.size(); ++i) {

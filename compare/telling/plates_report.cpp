@@ -139,11 +139,10 @@ std::vector<std::string> aside_in_words(const MeasuredPlatesFit& fit) {
     const char* what;
   };
   const std::array<Kind, 3> kinds = {{
-      {{AsideWhy::sinkage_spike, AsideWhy::pressure_spike, AsideWhy::end_spike},
-       "spikes, off the readings around them"},
+      {{AsideWhy::sinkage_spike, AsideWhy::pressure_spike, AsideWhy::end_spike}, "spikes"},
       {{AsideWhy::unloading}, "unloading, reloading or holding"},
       {{AsideWhy::stuck},
-       "a sinkage that stands still under rising pressure (a depth sensor that sticks or is at its end, or hard "
+       "constant sinkage under rising pressure (a depth sensor that sticks or is at the end of its range, or hard "
        "ground)"},
   }};
   std::vector<std::string> sentences;
@@ -262,14 +261,14 @@ std::vector<std::string> words_on_errors(const MeasuredPlatesFit& fit) {
   return {
       "± is one standard error: the three columns beside it, squared and added.",
       fit.one_size()
-          ? fmt::format(
-                "k stands for k_c/b + k_phi at b = {:g} mm: one size of plate does not part the two. It is good "
-                "for a wheel or plate of about this b.",
-                1000 * fit.radii.front())
-          : std::string("Those of k_c and k_phi hold at this n."),
+          ? fmt::format("k stands for k_c/b + k_phi at b = {:g} mm: one plate size can't separate the two. It is valid "
+                        "for a wheel or plate of about this b.",
+                        1000 * fit.radii.front())
+          : std::string("The errors of k_c and k_phi are at this n."),
       "A file takes the values as independent, which makes pressures less sure than these tests are.",
-      fmt::format("xi_n is the model rft's: a plate of any size bears {:.3f} xi_n z. That misses the pressures by {}, "
-                  "Bekker's form by {} (root mean square, of the mean pressure).",
+      fmt::format("xi_n is the model rft's: the pressure under any plate is {:.3f} xi_n z. RMS error of the pressures: "
+                  "{} by xi_n, "
+                  "{} by Bekker's form (of the mean pressure).",
                   resistive_force::plate_response(), percent(fit.xi_n_pressure_error), percent(fit.pressure_error))};
 }
 

@@ -282,7 +282,7 @@ std::string conclusion(const Reproduction& reproduction) {
 /// finding's figure.
 Table findings_matrix(const Reproduction& reproduction) {
   MarkedTable table{
-      fmt::format("Shown: the whole {:.0f} % interval lies in what is claimed. Contradicted: no part of it does. Open: "
+      fmt::format("Shown: the whole {:.0f} % interval agrees with the claim. Contradicted: no part of it does. Open: "
                   "between. A cell opens its figure",
                   100 * reproduction.findings.level),
       {"section", "finding"},

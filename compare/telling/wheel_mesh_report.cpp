@@ -135,7 +135,7 @@ Sheet wheel_sheet(const dem::DrawnWheel& wheel, const std::string& file) {
 }  // namespace
 
 Report report_on(const dem::DrawnWheel& wheel, const std::string& file) {
-  Report report{file, "A drawing of a wheel, as grains would meet it.",
+  Report report{file, "A drawing of a wheel, as the grain simulation uses it.",
                 fmt::format("{}: {}, {}", file, count_of(wheel.mesh.size(), "triangle", "triangles"),
                             count_of(wheel.mends.bodies, "closed body", "closed bodies"))};
   report.add(facts_of(wheel));

@@ -49,7 +49,7 @@ std::vector<std::string> in_sentences(const TestDesign& design) {
   std::vector<std::string> sentences;
   const std::string runs = counted(design.runs.size(), "run");
   sentences.push_back(fmt::format(
-      "{}{} to tell {} apart. If one of them is there, as large as the noise of a run, it is expected to be named "
+      "{}{} to separate {}. An effect as large as the noise of a run is expected to be named "
       "right in {} of all cases; by a sweep of one condition at a time with as many runs in {}.",
       runs, design.made > 0 ? fmt::format(", beside {} that are made,", counted(design.made, "run")) : "",
       counted(design.effects.size(), "effect"), share(design.planned.named_right), share(design.swept.named_right)));

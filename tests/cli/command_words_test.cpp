@@ -30,7 +30,7 @@ TEST(CommandWords, AreRefusedInOurs) {
       {"explain --soil dry-sand --plot a.svg", "soilbin estimate --slip 0%..60% --plot slip.svg"},
       {"loop made-lesson --csv a.csv", "soilbin"},
       {"run --soil dry-sand", "soilbin init mine writes one to change"},
-      {"--nope", "'--nope' stands where a command is to be"},
+      {"--nope", "'--nope' is where a command is expected"},
       {"estimate --soil dry-sand --radius 1m --width 1m --load 1kN --slip 0.1 --density 1600kg/m^3+-100kg/m^3",
        "--density: a density has no standard deviation here"},
   };
@@ -62,7 +62,7 @@ TEST(CommandWords, WordsOfTheFieldLeadToOurs) {
       {"limits rover-slip --slope 20deg", "limits looks for the slip and the slope; soilbin estimate answers"},
       {"limits --soil dry-sand --tire rover-wheel", "--load is missing\n  hint: such as --load 80N\n"},
       {"bevameter paper-sand --size 0.5", "hint: a larger --size"},
-      {"list curiosity", "'curiosity' stands in the list of tires\n  hint: soilbin list tires; the whole of it: "},
+      {"list curiosity", "'curiosity' is in the list of tires\n  hint: soilbin list tires; the whole of it: "},
   };
   for (const auto& [words, said] : led) {
     const Outcome r = soilbin(words, "timeout 20 ");

@@ -245,7 +245,7 @@ study: {conditions: {load: 80 N, slip: 20 %}}
 // s = 1 - v/(r w): at v = 0 a turning wheel slips by 100 %, and one that does not turn has no slip.
 TEST(DoubtsOfCommands, ASlipAtASpeedOfZeroIsDoubted) {
   const std::string at = "estimate --soil dry-sand --radius 110mm --width 100mm --load 80N --speed 0m/s --slip ";
-  const auto told = HasSubstr("at a speed of 0 a wheel stands still or slips by 100 %");
+  const auto told = HasSubstr("at a speed of 0 a wheel is at rest or slips by 100 %");
   EXPECT_THAT(soilbin(at + "20%").err, told);
   EXPECT_THAT(soilbin(at + "100%").err, Not(told));
   EXPECT_THAT(soilbin("drive rover-climb").err, Not(told)) << "a drive begins at rest";

@@ -176,7 +176,7 @@ study:
   unsetenv("SOILBIN_BEDS");
   ASSERT_EQ(all.status, 0) << all.err;
   EXPECT_EQ(all.json()["rows"][1], one.json()["rows"][0]);
-  const auto untested = HasSubstr("nobody tested whether the grains' answers depend on the time step");
+  const auto untested = HasSubstr("not verified that the grains' answers are independent of the time step");
   EXPECT_THAT(all.err, untested);
   const Outcome shown = soilbin(run + recorded);
   EXPECT_EQ(shown.json()["rows"], all.json()["rows"]);
@@ -253,12 +253,12 @@ TEST(Run, ADryRunJudgesWhatTheRunsWouldMeet) {
     EXPECT_EQ(plan.status, 2) << bad;
     EXPECT_EQ(plan.err.substr(plan.err.find("soilbin: ")), made.err.substr(made.err.find("soilbin: "))) << bad;
   }
-  const auto narrow = HasSubstr("the bed is 1.9 tire widths wide, and its walls hold the soil");
+  const auto narrow = HasSubstr("the bed is 1.9 tire widths wide, so its walls support the soil");
   const Outcome plan = soilbin(run + "--bed-width 0.19m --dry-run --json");
   EXPECT_EQ(plan.status, 0) << plan.err;
   EXPECT_THAT(plan.err, narrow);
   EXPECT_THAT(plan.json()["warning_kinds"].dump(), HasSubstr("narrow_bed"));
-  EXPECT_THAT(soilbin(run + "--bed-width 0.25m --dry-run").err, testing::Not(HasSubstr("its walls hold the soil")));
+  EXPECT_THAT(soilbin(run + "--bed-width 0.25m --dry-run").err, testing::Not(HasSubstr("its walls support the soil")));
 }
 
 // It lists what it would make, and makes nothing: no record is begun.
@@ -286,7 +286,7 @@ TEST(Run, ConvergeRefusesWhatMeansNothingBesideIt) {
     EXPECT_THAT(refused.err, HasSubstr(name)) << flag;
     EXPECT_EQ(refused.out, "") << flag;
   }
-  EXPECT_THAT(soilbin(run + " --slip 20% --shard 1/2").err, HasSubstr("--shard means nothing beside --converge"));
+  EXPECT_THAT(soilbin(run + " --slip 20% --shard 1/2").err, HasSubstr("--shard has no effect with --converge"));
   EXPECT_THAT(soilbin(run + " --dry-run").err, HasSubstr("--converge takes one condition, not 2"));
   EXPECT_THAT(soilbin("run rover-slip --model bekker_wong --slip 20% --converge").err, HasSubstr("hint: --model dem"));
 }

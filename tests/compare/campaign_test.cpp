@@ -141,7 +141,7 @@ TEST(Campaign, TheRotationTellsTheSpeed) {
   EXPECT_NEAR(c.runs[0].at.speed, c.wheel.radius * 30 * 2 * std::numbers::pi / 60 * 0.8, 1e-12);
   EXPECT_EQ(c.runs[1].at.speed, OperatingCondition().speed) << "an empty cell: the usual speed";
   EXPECT_THAT(refused(good_yaml, "load_N,slip,speed_m_s,rotation_rpm,sinkage_m\n80,0.2,0.1,30,0.01\n"),
-              StartsWith("runs.csv:1:23: columns 'speed_m_s' and 'rotation_rpm' both tell the speed"));
+              StartsWith("runs.csv:1:23: columns 'speed_m_s' and 'rotation_rpm' both give the speed"));
 }
 
 // A locked wheel does not turn, however fast it is dragged; a wheel that turns is not locked.

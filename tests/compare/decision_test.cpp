@@ -123,7 +123,7 @@ TEST(Decisions, OfThoseThatCannotBeToldApartTheLikeliestIsChosen) {
   EXPECT_EQ(decision.nearest, 1U);
   EXPECT_EQ(decision.chosen, 0U);  // candidates come with the likeliest first
   EXPECT_EQ(decision.tied(), 2);
-  EXPECT_THAT(decision_sentences(decision), Contains(HasSubstr("not told apart from (a) by two standard errors")));
+  EXPECT_THAT(decision_sentences(decision), Contains(HasSubstr("does not differ from (a) by two standard errors")));
   EXPECT_EQ(decision_cells(decision, 1).back(), "nearest, not told apart");
   EXPECT_EQ(decision_cells(decision, 2).back(), "farther off");
 }

@@ -295,7 +295,7 @@ TEST_F(Pair, LimitsOfGrainsAreMarkedOnTheCurves) {
     return points;
   };
   EXPECT_GT(labelled(name_of(comparison.sides[1]) + ", coarse for the wheel, one bed sample each"), 0u);
-  EXPECT_EQ(labelled("negative sinkage: the tread stands above the mean surface"), 1u);
+  EXPECT_EQ(labelled("negative sinkage: the tread is above the mean surface"), 1u);
   comparison.sides[1].points[0].runs = 2;
   const Sheet some = curve_sheet(comparison, 0, false);
   std::size_t marked = 0;

@@ -245,8 +245,9 @@ TEST(ReasonWords, SayEachReason) {
        "re-runs "
        "scatter (p = 0.001)"},
       {NoneAccepted{SerialTest{.p_value = 0.001, .channel = torque}},
-       "no known effect is accepted (not explained by noise (p = 0.012)), but the residuals of the torque are alike in "
-       "runs made one after the other (p = 0.001)"},
+       "no known effect is accepted (not explained by noise (p = 0.012)), but the residuals of the torque are "
+       "correlated "
+       "between successive runs (p = 0.001)"},
       {MoreThanNamed{UnexplainedShare{0.42}},
        "the residual is real (not explained by noise (p = 0.012)), but the best set of known effects leaves 42 % of "
        "it"},

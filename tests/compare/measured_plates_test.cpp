@@ -170,7 +170,7 @@ TEST(MeasuredPlates, BadFilesAreRefused) {
   EXPECT_THAT(refusal([] { read_csv_of_plates("tool,pressure_kPa\nd60mm,1\n"); }),
               HasSubstr("no column holds the sinkage"));
   EXPECT_THAT(refusal([] { read_csv_of_plates("tool,sinkage_m,pressure_kPa\nround,0.1,1\n"); }),
-              StartsWith("plates.csv:2:1: 'round' tells no size of a plate"));
+              StartsWith("plates.csv:2:1: 'round' gives no size of a plate"));
   EXPECT_THAT(refusal([] { read_csv_of_plates("tool,sinkage_m,pressure_kPa\nd60mm,deep,1\n"); }),
               StartsWith("plates.csv:2:7: column 'sinkage_m': expected a finite number, not 'deep'"));
   EXPECT_THAT(refusal([] { read_csv_of_plates("tool,sinkage_m,pressure_kPa\nd60mm,12 mm,1\n"); }),
@@ -249,7 +249,7 @@ TEST(MeasuredPlates, AColumnThatChangesInEachRowTellsNoTests) {
   int i = 0;
   for (std::string row; std::getline(rows, row);) csv += fmt::format("0.9{},{}\n", i++, row);
   EXPECT_THAT(refusal([&] { read_csv_of_plates(csv); }),
-              AllOf(StartsWith("plates.csv:1:1: column 'R2' has no unit, so it tells tests apart, and it has 24 values "
+              AllOf(StartsWith("plates.csv:1:1: column 'R2' has no unit, so it identifies tests, and it has 24 values "
                                "in 24 rows"),
                     HasSubstr("hint: take it out of the file")));
 }
@@ -312,7 +312,7 @@ TEST(DirtyPlates, ASpikeOfTheSinkageIsSetAsideWithItsLine) {
   ASSERT_TRUE(fit.kept);
   EXPECT_NEAR((*fit.kept)[0], 0.25, 0.01) << "what the answer was with the spike";
   const Report report = report_on(fit, {}, "x");
-  EXPECT_THAT(text_of(report), HasSubstr("Set aside as spikes, off the readings around them: 1 reading of 1 test "
+  EXPECT_THAT(text_of(report), HasSubstr("Set aside as spikes: 1 reading of 1 test "
                                          "(line 6).\nWith everything kept: n = 0.2501"));
   const Json document = report.data();
   EXPECT_EQ(document["set_aside"][0]["why"], "sinkage_spike");

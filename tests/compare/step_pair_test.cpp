@@ -70,7 +70,7 @@ TEST(StepPair, ErrorsHoldWhatPackingsScatterMoreThanTheirRunsTell) {
   EXPECT_TRUE(pair.widened);
   EXPECT_TRUE(agrees(pair));
   EXPECT_THAT(in_words(pair), HasSubstr("(1.2 errors)"));
-  EXPECT_THAT(in_words(pair), HasSubstr("the errors hold the scatter between bed samples"));
+  EXPECT_THAT(in_words(pair), HasSubstr("the errors include the scatter between bed samples"));
   EXPECT_FALSE(agrees(step_pairs(recorded({runs[0]}, {half})).at(0)));
 }
 
