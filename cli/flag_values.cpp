@@ -60,7 +60,8 @@ void set_where_given(const std::string& flag, const std::string& text, const Mea
 void check_model(const std::string& name, const std::vector<std::string>& right) {
   if (std::ranges::find(right, name) == right.end())
     throw InputError("--model: unknown model '" + clipped(name) + "'" + did_you_mean(name, right) +
-                     "\n  hint: bekker_wong is the analytic wheel, dem the grains");
+                     "\n  hint: bekker_wong is the analytic wheel, dem the grains; rft and cone_index are quick models "
+                     "of their own");
 }
 
 std::pair<double, double> read_range(const std::string& flag, const std::string& text, const Measure& measure) {

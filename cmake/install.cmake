@@ -1,11 +1,11 @@
 # What `cmake --install` lays down: the command, the libraries with the headers that docs/reference/cpp-api.md names, the
 # cases, the docs, and a CMake package, so that find_package(soilbin) gives soilbin::scenario, soilbin::bekker_wong,
-# soilbin::dem, soilbin::resistive_force, soilbin::compare, and of them soilbin::surface (dem/surface) and
+# soilbin::dem, soilbin::resistive_force, soilbin::cone_index, soilbin::compare, and of them soilbin::surface (dem/surface) and
 # soilbin::experiments (compare/experiments).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(floors scenario bekker_wong dem resistive_force compare)
+set(floors scenario bekker_wong dem resistive_force cone_index compare)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/soilbin)
 
 if(TARGET soilbin)

@@ -2,7 +2,7 @@
 # names and those that they include, as they lie in the project. What nobody is told to include stays behind.
 cmake_minimum_required(VERSION 3.25)
 file(READ ${SOURCE}/docs/reference/cpp-api.md page)
-string(REGEX MATCHALL "(scenario|bekker_wong|dem|resistive_force|compare)/[a-z0-9_/]+\\.hpp" waiting "${page}")
+string(REGEX MATCHALL "(scenario|bekker_wong|dem|resistive_force|cone_index|compare)/[a-z0-9_/]+\\.hpp" waiting "${page}")
 set(laid_down "")
 while(waiting)
   list(POP_FRONT waiting header)

@@ -24,10 +24,13 @@
 namespace soilbin {
 
 /// The models that a study can ask.
-enum class ModelKind { bekker_wong, dem, rft };
+enum class ModelKind { bekker_wong, dem, rft, cone_index };
 
-constexpr std::array<Word<ModelKind>, 3> words_of(std::type_identity<ModelKind>) {
-  return {{{"bekker_wong", ModelKind::bekker_wong}, {"dem", ModelKind::dem}, {"rft", ModelKind::rft}}};
+constexpr std::array<Word<ModelKind>, 4> words_of(std::type_identity<ModelKind>) {
+  return {{{"bekker_wong", ModelKind::bekker_wong},
+           {"dem", ModelKind::dem},
+           {"rft", ModelKind::rft},
+           {"cone_index", ModelKind::cone_index}}};
 }
 
 /// A model and the effects that it is to show.

@@ -31,11 +31,16 @@ void check_soil_for(const ModelChoice& choice, const Soil& soil, const YamlNode&
                    fmt::format("model 'dem' needs the soil's 'granular' section; '{}' has none", clipped(soil.name)));
   if (choice.model == ModelKind::dem && !choice.effects.empty())
     reading.refuse(node, "model 'dem' takes no effects: grains show them or they don't");
-  if (choice.model == ModelKind::rft && !choice.effects.empty())
-    reading.refuse(node, "model 'rft' takes no effects: they are of bekker_wong's stresses");
+  if ((choice.model == ModelKind::rft || choice.model == ModelKind::cone_index) && !choice.effects.empty())
+    reading.refuse(
+        node, fmt::format("model '{}' takes no effects: they are of bekker_wong's stresses", word_of(choice.model)));
   if (choice.model == ModelKind::rft && !soil.resistive_force && !soil.semi_empirical)
     reading.refuse(node, fmt::format("model 'rft' needs the soil's 'resistive_force' section, or 'semi_empirical' to "
                                      "estimate it from; '{}' has neither",
+                                     clipped(soil.name)));
+  if (choice.model == ModelKind::cone_index && !soil.cone_index && !soil.cone_index_gradient)
+    reading.refuse(node, fmt::format("model 'cone_index' needs the soil's 'cone_index' or, of sand, its "
+                                     "'cone_index_gradient'; '{}' has neither",
                                      clipped(soil.name)));
 }
 
@@ -67,8 +72,8 @@ ModelChoice read_model(const YamlNode& node, const Soil& soil, const EffectVocab
     choice.model = read_choice<ModelKind>(node, reading);
   } else {
     expect_keys(node, {"model", "effects", "label", "errors", "misfit"}, reading);
-    choice.model =
-        read_choice<ModelKind>(*value_of(node, "model", Need::required, "bekker_wong, dem or rft", reading), reading);
+    choice.model = read_choice<ModelKind>(
+        *value_of(node, "model", Need::required, "bekker_wong, dem, rft or cone_index", reading), reading);
     read_effects_and_errors(node, effects, reading, choice);
     if (const YamlNode* misfit = value_of(node, "misfit", Need::optional, "what a fit missed, by channel", reading))
       choice.misfit = read_misfit(*misfit, reading);

@@ -150,6 +150,8 @@ void describe(Visitor& v, std::type_identity<Tire>) {
            "pressure that the carcass itself carries (Wong's p_c)");
   v.group("deflection", &Tire::deflection, Need::optional,
           "the maker's load-deflection table: a CSV with columns such as load_kN, pressure_kPa, deflection_mm");
+  v.number("section_height", &Tire::section_height, Measure{"mm", above_zero}, Need::optional,
+           "from the rim to the tread; read by the model cone_index alone");
 }
 
 template <class Visitor>
@@ -242,11 +244,17 @@ void describe(Visitor& v, std::type_identity<Soil>) {
   v.group("semi_empirical", &Soil::semi_empirical, Need::optional, "values of the Bekker / Wong-Reece model");
   v.group("granular", &Soil::granular, Need::optional, "grains of the discrete element model");
   v.group("resistive_force", &Soil::resistive_force, Need::optional, "values of resistive force theory (model rft)");
+  v.number("cone_index", &Soil::cone_index, Measure{"kPa", above_zero}, Need::optional,
+           "of fine-grained soil: mean over the first 150 mm or so (model cone_index)");
+  v.number("cone_index_gradient", &Soil::cone_index_gradient, Measure{"MPa/m", above_zero}, Need::optional,
+           "of sand: by how much the cone index grows with depth (model cone_index)");
 }
 
 inline std::string contradiction(const Soil& soil) {
-  if (!soil.semi_empirical && !soil.granular && !soil.resistive_force)
-    return "a soil needs 'semi_empirical', 'granular' or 'resistive_force'";
+  if (!soil.semi_empirical && !soil.granular && !soil.resistive_force && !soil.cone_index && !soil.cone_index_gradient)
+    return "a soil needs 'semi_empirical', 'granular', 'resistive_force', 'cone_index' or 'cone_index_gradient'";
+  if (soil.cone_index && soil.cone_index_gradient)
+    return "'cone_index' is of fine-grained soil and 'cone_index_gradient' of sand: give one of them";
   if (soil.semi_empirical && soil.granular && soil.semi_empirical->gravity != soil.granular->gravity)
     return "gravity must be the same in 'semi_empirical' and in 'granular'";
   return "";

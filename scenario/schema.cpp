@@ -25,20 +25,6 @@ void add_bounds(ordered_json& schema, const Range& range) {
   if (std::isfinite(range.upper)) schema[range.upper_open ? "exclusiveMaximum" : "maximum"] = range.upper;
 }
 
-ordered_json document_schema(const char* format, const char* title, ordered_json object) {
-  ordered_json schema;
-  schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
-  schema["title"] = title;
-  schema.update(object);
-  ordered_json properties = {{"format", {{"const", format}}}};
-  properties.update(object["properties"]);
-  schema["properties"] = properties;
-  ordered_json required = {"format"};
-  for (const ordered_json& key : object["required"]) required.push_back(key);
-  schema["required"] = required;
-  return schema;
-}
-
 /// A property as an axis: the value, a list of values or, for a number, a range.
 ordered_json axis_schema(const ordered_json& value, bool numeric) {
   ordered_json any = ordered_json::array({value, {{"type", "array"}, {"minItems", 1}, {"items", value}}});
@@ -110,7 +96,7 @@ ordered_json misfit_schema() {
 }
 
 ordered_json models_schema(const EffectVocabulary& effects) {
-  const ordered_json name = words_schema({"bekker_wong", "dem"}, "which model");
+  const ordered_json name = words_schema(all_words<ModelKind>(), "which model");
   ordered_json object = empty_object_schema();
   object["properties"] = {{"model", name},
                           {"effects", effects_schema(effects)},
@@ -161,6 +147,20 @@ ordered_json text_schema(const std::string& meaning) {
 
 ordered_json integer_schema(int lowest, const std::string& meaning) {
   return {{"type", "integer"}, {"minimum", lowest}, {"description", meaning}};
+}
+
+ordered_json document_schema(const char* format, const char* title, ordered_json object) {
+  ordered_json schema;
+  schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
+  schema["title"] = title;
+  schema.update(object);
+  ordered_json properties = {{"format", {{"const", format}}}};
+  properties.update(object["properties"]);
+  schema["properties"] = properties;
+  ordered_json required = {"format"};
+  for (const ordered_json& key : object["required"]) required.push_back(key);
+  schema["required"] = required;
+  return schema;
 }
 
 ordered_json words_schema(const std::vector<std::string>& words, const std::string& meaning) {

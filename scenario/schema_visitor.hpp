@@ -19,6 +19,8 @@ nlohmann::ordered_json words_schema(const std::vector<std::string>& words, const
 nlohmann::ordered_json text_schema(const std::string& meaning);
 /// A tire or soil that a case names, or writes out.
 nlohmann::ordered_json named_or(nlohmann::ordered_json inline_part);
+/// A file of this format that holds an object.
+nlohmann::ordered_json document_schema(const char* format, const char* title, nlohmann::ordered_json object);
 /// An object with no other keys than those added to "properties".
 nlohmann::ordered_json empty_object_schema();
 

@@ -1,5 +1,5 @@
 // A soil: the values that the analytic model needs (pressure, sinkage, shear), its grains for the discrete element
-// model, its resistive force; at least one of them.
+// model, its resistive force, what a cone penetrometer finds in it; at least one of them.
 //
 //   Soil soil{.name = "dry sand"};
 //   soil.semi_empirical = SemiEmpiricalSoil{.exponent = {1.1, 0}, .k_c = {990, 0}, .k_phi = {1.528e6, 0},
@@ -107,12 +107,17 @@ struct ResistiveForceSoil {
   std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "xi_n"
 };
 
-/// A soil, by what each model needs of it.
+/// A soil, by what each model needs of it. It is fine-grained or sand: of cone_index and cone_index_gradient it has one
+/// at most.
 struct Soil {
   std::string name;
   std::optional<SemiEmpiricalSoil> semi_empirical;
   std::optional<GranularSoil> granular;
   std::optional<ResistiveForceSoil> resistive_force{};
+  /// Of fine-grained soil: mean resistance to a cone of 30 deg over its base, to a depth of some 150 mm [Pa], > 0.
+  std::optional<Estimate> cone_index{};
+  /// Of sand: by how much the cone index grows with depth [Pa/m], > 0.
+  std::optional<Estimate> cone_index_gradient{};
   std::optional<double> moisture;                ///< water content by mass [-]
   std::string source{};                          ///< where the soil as a whole is described
   std::map<std::string, std::string> sources{};  ///< where single numbers beside the two sections come from

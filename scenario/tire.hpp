@@ -50,8 +50,9 @@ struct DeflectionTable {
 /// The key of Tire::carcass_pressure in files, and its name among the values that a fit found.
 inline constexpr const char* carcass_pressure_key = "carcass_pressure";
 
-/// The key of Tire::deflection in files.
+/// The keys of Tire::deflection and Tire::section_height in files.
 inline constexpr const char* deflection_key = "deflection";
+inline constexpr const char* section_height_key = "section_height";
 
 /// A wheel as the soil meets it. Radius and width belong to the tread base, without lugs.
 struct Tire {
@@ -64,6 +65,8 @@ struct Tire {
   std::optional<DeflectionTable> deflection{};   ///< of firm ground, its maker's; absent: presumed by effects
   std::string source{};                          ///< where the wheel as a whole is described
   std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "lugs.height"
+  /// From the rim to the tread [m]; absent: the model cone_index, which alone reads it, assumes one.
+  std::optional<double> section_height{};
 };
 
 /// To the tips of the lugs [m].

@@ -26,7 +26,8 @@ void doubt_budget(SidePoint& point) {
 std::vector<ModelChoice> analytic_choices(const Study& study) {
   std::vector<ModelChoice> choices = {{ModelKind::bekker_wong, {}, "bekker_wong"}};
   for (const ModelChoice& choice : study.models)
-    if (choice.model == ModelKind::rft || (choice.model == ModelKind::bekker_wong && !choice.effects.empty()))
+    if (choice.model == ModelKind::rft || choice.model == ModelKind::cone_index ||
+        (choice.model == ModelKind::bekker_wong && !choice.effects.empty()))
       choices.push_back(choice);
   return choices;
 }

@@ -87,6 +87,7 @@ constexpr DoubtSentence sentences[] = {
     D(carcass_ignored_by_grains, "the carcass pressure is ignored: grains meet a rigid tire"),
     D(deflection_ignored, "the load-deflection table is ignored: add {1}"),
     D(deflection_ignored_by_grains, "the load-deflection table is ignored: grains meet a rigid tire"),
+    D(section_height_ignored, "only the model cone_index reads the section height"),
     D(speed_ignored, "the speed is ignored: add {1}"),
     D(bin_ignored, "the bin is ignored: add {1}, which reads its depth"),
     D(no_yaw, "'{0}' is ignored: no condition has a 'yaw'"),
@@ -106,6 +107,23 @@ constexpr DoubtSentence sentences[] = {
       "from the soil's density and friction angle: declare 'resistive_force', from plates"),
     D(rft_without_cohesion, "rft has no cohesion, and this soil has {:.3g} kPa: it sinks too deep and pulls too "
       "little"),
+    D(ignored_by_cone_index, "cone_index ignores {}"),
+    D(cone_index_tells_no_sinkage, "cone_index gives pull and torque alone: no sinkage, no stresses, no contact angles"),
+    D(cone_index_beside_bekker, "a cone and a bevameter test unlike things of a soil, and what relates their values is "
+      "loose: where cone_index and bekker_wong differ here, neither is shown to be wrong"),
+    D(section_height_assumed, "cone_index: the tire declares no section_height, and {:.4g} mm are assumed, {:.0f} % of "
+      "its width"),
+    D(firm_deflection_by_pressure, "cone_index: the tire declares no load-deflection table; by its inflation and carcass "
+      "pressure it deflects by {:.3g} mm on firm ground, {:.0f} % of its section height{at}"),
+    D(firm_deflection_assumed, "cone_index is for pneumatic tires: this one declares no inflation pressure, and a "
+      "deflection of {:.0f} % of its section height is assumed"),
+    D(outside_cone_index_tests, "cone_index: {} = {:.3g} is outside {:.3g} .. {:.3g}, where its relation was "
+      "tested{at}"),
+    D(some_axles_driven, "{:.0f} of {:.0f} axles are driven: VCI1 and VCI50 are of vehicles that drive all of them"),
+    D(cone_index_as_rating, "the soil's cone index is taken as its rating cone index: where traffic softens the soil, "
+      "that is less (--remolding-index)"),
+    D(close_to_vehicle_cone_index, "{:#pass}: an excess of {:.3g} ± {:.3g} kPa may as well be the other way"),
+    D(no_mean_maximum_pressure, "no mean maximum pressure: it needs {}"),
     D(presumed, "{}"),
     D(density_assumed, "the soil declares no density: {:g} kg/m^3 is assumed, and the answers depend on it"),
     D(exact_carcass, "effect {0} takes the carcass pressure, {1:.4g} kPa, as exact: an error in it would be "

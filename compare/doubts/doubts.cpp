@@ -9,6 +9,7 @@
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 #include "compare/doubts/column_doubts.hpp"
+#include "compare/doubts/cone_doubts.hpp"
 #include "compare/doubts/declared_doubts.hpp"
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/doubts/row_doubts.hpp"
@@ -262,6 +263,10 @@ Doubts doubts_but_unused_inputs(const Case& question, const std::vector<ModelAns
     append(all, doubts(scenario.soil));
   append(all, doubts(scenario.tire, scenario.soil));
   if (asks(question.study, ModelKind::rft)) append(all, resistive_force_doubts(scenario.soil));
+  if (asks(question.study, ModelKind::cone_index)) {
+    append(all, cone_index_doubts(scenario, question.study.conditions));
+    if (asks(question.study, ModelKind::bekker_wong)) all.push_back({DoubtKind::cone_index_beside_bekker});
+  }
   append(all, doubts_of_speeds(question));
   append(all, doubts_of_answers(scenario, study, open));
   if (open || asks(question.study, ModelKind::dem))
@@ -343,7 +348,7 @@ Remark remarks_about(const Scenario& scenario) {
 std::vector<std::string> remarks_on(const Campaign& campaign, const Scenario& asked, const Prediction& prediction) {
   std::vector<std::string> remarks;
   std::map<int, std::size_t> of_line;
-  const ModelChoice model{ModelKind::bekker_wong, asked.effects, ""};
+  const ModelChoice model{prediction.model, asked.effects, ""};
   for (const PredictedRun& run : prediction.runs) {
     of_line[campaign.runs[remarks.size()].csv_line] = remarks.size();
     remarks.push_back(remark_on(asked, model, run.predicted));

@@ -17,7 +17,8 @@ struct Declared {
   std::optional<DoubtKind> of_grains;  ///< the same of grains; none where they hear of it
   std::optional<DoubtKind> needs;      ///< that an effect lacks it; none where effects do without
   std::function<bool(const Case&)> given;
-  std::string of_rft{};  ///< what resistive force theory does not know of it, in words; "" where it reads it
+  std::string of_rft{};   ///< what resistive force theory does not know of it, in words; "" where it reads it
+  std::string of_cone{};  ///< what the model cone_index does not know of it
 };
 
 bool any_condition(const Case& question, const std::function<bool(const OperatingCondition&)>& has) {
@@ -38,15 +39,16 @@ const std::vector<Declared>& declarable() {
   using At = const OperatingCondition&;
   const auto some = [](auto has) { return [has](const Case& question) { return any_condition(question, has); }; };
   const auto of_condition = [&](const std::string& key, std::optional<DoubtKind> of_grains, DoubtKind needs, auto has,
-                                const std::string& of_rft = "") {
-    return Declared{
-        key, DoubtKind::condition_ignored, of_grains, needs, some(has), of_rft.empty() ? "'" + key + "'" : of_rft};
+                                const std::string& unread = "") {
+    const std::string words = unread.empty() ? "'" + key + "'" : unread;
+    return Declared{key, DoubtKind::condition_ignored, of_grains, needs, some(has), words, words};
   };
   const auto typed = [](const Case& question, const std::string& key) {
     return question.on_command_line.contains(key);
   };
   // Files may say more than one model needs; whoever types a value wants it to matter. Grains hear of these.
-  const auto of_typed = [&](const std::string& key, DoubtKind kind, const std::string& of_rft = "") {
+  const auto of_typed = [&](const std::string& key, DoubtKind kind, const std::string& of_rft,
+                            const std::string& of_cone) {
     return Declared{key,
                     kind,
                     {},
@@ -57,7 +59,8 @@ const std::vector<Declared>& declarable() {
                       return (of_tire ? source->second == command_line_source : typed(question, key)) &&
                              !asks(question.study, ModelKind::dem);
                     },
-                    of_rft};
+                    of_rft,
+                    of_cone};
   };
   // These are about the angle between wheel and travel.
   const auto of_yaw = [&](const std::string& key) {
@@ -66,7 +69,13 @@ const std::vector<Declared>& declarable() {
                     }};
   };
   static const std::vector<Declared> all = {
-      {"lugs", DoubtKind::lugs_ignored, {}, {}, [](const Case& question) { return is_lugged(question.scenario.tire); }},
+      {"lugs",
+       DoubtKind::lugs_ignored,
+       {},
+       {},
+       [](const Case& question) { return is_lugged(question.scenario.tire); },
+       "",
+       "the lugs, but for the outer diameter"},
       {"inflation_pressure",
        DoubtKind::inflation_ignored,
        DoubtKind::inflation_ignored_by_grains,
@@ -86,17 +95,19 @@ const std::vector<Declared>& declarable() {
          const bool is_typed = source != tire.sources.end() && source->second == command_line_source;
          return tire.carcass_pressure && (is_typed || !tire.inflation_pressure);
        },
-       "the carcass pressure: its wheel is rigid"},
+       "the carcass pressure: its wheel is rigid",
+       ""},
       {deflection_key,
        DoubtKind::deflection_ignored,
        DoubtKind::deflection_ignored_by_grains,
        {},
        [](const Case& question) { return question.scenario.tire.deflection.has_value(); },
        "the load-deflection table: its wheel is rigid"},
-      of_typed("lugs.count", DoubtKind::lug_count_ignored),
-      of_typed("lugs.thickness", DoubtKind::lug_thickness_ignored),
-      of_typed("lugs.pattern", DoubtKind::lug_pattern_ignored),
-      of_typed("lugs.angle", DoubtKind::lug_angle_ignored),
+      of_typed("lugs.count", DoubtKind::lug_count_ignored, "", "the number of lugs"),
+      of_typed("lugs.thickness", DoubtKind::lug_thickness_ignored, "", "the lugs' thickness"),
+      of_typed("lugs.pattern", DoubtKind::lug_pattern_ignored, "", "the lugs' pattern"),
+      of_typed("lugs.angle", DoubtKind::lug_angle_ignored, "", "the lugs' angle"),
+      of_typed(section_height_key, DoubtKind::section_height_ignored, "the section height", ""),
       {"speed",
        DoubtKind::speed_ignored,
        {},
@@ -104,8 +115,9 @@ const std::vector<Declared>& declarable() {
        [=](const Case& question) {
          return (typed(question, "speed") || tells_speed(question)) && !asks(question.study, ModelKind::dem);
        },
+       "'speed'",
        "'speed'"},
-      of_typed("bin", DoubtKind::bin_ignored, "'bin'"),
+      of_typed("bin", DoubtKind::bin_ignored, "'bin'", "'bin'"),
       of_yaw("slip_by"),
       of_yaw("force_frame"),
       {"no_assumed_sd",
@@ -154,15 +166,19 @@ bool hears(const ModelChoice& choice, const Declared& declared) {
   });
 }
 
-/// That a thing which is given changes nothing of the analytic models or, where these hear or aren't asked, of grains
-/// or of resistive force theory.
+/// That a thing which is given changes nothing of the analytic models or, where these hear or aren't asked, of grains,
+/// of resistive force theory or of cone_index.
 Doubts doubts_of_unused(const std::vector<ModelChoice>& models, const Declared& declared) {
   const auto asked = [&](ModelKind kind) {
     return std::ranges::any_of(models, [&](auto& m) { return m.model == kind; });
   };
   const bool grains = asked(ModelKind::dem), wheel = asked(ModelKind::bekker_wong);
-  if (asked(ModelKind::rft) && !declared.of_rft.empty() && !wheel)
-    return {Doubt{DoubtKind::ignored_by_rft, {declared.of_rft}}};
+  Doubts by_others;
+  if (asked(ModelKind::rft) && !declared.of_rft.empty())
+    by_others.push_back({DoubtKind::ignored_by_rft, {declared.of_rft}});
+  if (asked(ModelKind::cone_index) && !declared.of_cone.empty())
+    by_others.push_back({DoubtKind::ignored_by_cone_index, {declared.of_cone}});
+  if (!by_others.empty() && !wheel) return by_others;
   if (wheel && std::none_of(models.begin(), models.end(), [&](const ModelChoice& m) { return hears(m, declared); }))
     return {Doubt{*declared.of_wheel, {declared.key, hearing_effects(declared.key)}}};
   if (!grains || !declared.of_grains) return {};

@@ -219,12 +219,16 @@ void read_model(const YamlNode* model, Campaign& campaign, const EffectVocabular
 constexpr const char* wheel_meaning = "radius, width and, where there are any, lugs; or a tire of the library";
 constexpr const char* soil_meaning = "what plate and shear tests say: value and sd; or a soil of the library";
 
-SemiEmpiricalSoil read_values(const YamlNode& soil, const Library& library, const Reading& reading) {
+/// A named soil gives its cone index too, where the campaign tells none.
+SemiEmpiricalSoil read_values(const YamlNode& soil, const Library& library, const Reading& reading,
+                              Campaign& campaign) {
   if (soil.is_mapping()) return read_mapping<SemiEmpiricalSoil>(soil, reading);
   const Soil named = read_soil_part(soil, library, reading);
   if (!named.semi_empirical)
     reading.refuse(soil, fmt::format("a campaign needs a soil with a 'semi_empirical' section; '{}' has none",
                                      clipped(named.name)));
+  if (!campaign.cone_index && !campaign.cone_index_gradient)
+    campaign.cone_index = named.cone_index, campaign.cone_index_gradient = named.cone_index_gradient;
   return *named.semi_empirical;
 }
 
@@ -248,6 +252,7 @@ Scenario scenario_of(const Campaign& campaign) {
   scenario.tire = campaign.wheel;
   scenario.soil.name = campaign.name;
   scenario.soil.semi_empirical = campaign.soil;
+  scenario.soil.cone_index = campaign.cone_index, scenario.soil.cone_index_gradient = campaign.cone_index_gradient;
   scenario.bin = campaign.bin;
   scenario.effects = campaign.effects;
   return scenario;
@@ -269,7 +274,8 @@ Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(c
       read_mapping<Campaign>(document, reading, {"format", "wheel", "soil", "model", "columns", "ignored"});
   const Library near = library.beside(yaml.file);
   campaign.wheel = read_tire_part(*value_of(document, "wheel", Need::required, wheel_meaning, reading), near, reading);
-  campaign.soil = read_values(*value_of(document, "soil", Need::required, soil_meaning, reading), near, reading);
+  campaign.soil =
+      read_values(*value_of(document, "soil", Need::required, soil_meaning, reading), near, reading, campaign);
   read_model(value_of(document, "model", Need::optional, "{effects: []}", reading), campaign, effects, reading);
   Renames renames =
       read_renames(value_of(document, "columns", Need::optional, "names and units; {} for none", reading), reading);

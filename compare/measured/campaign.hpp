@@ -73,6 +73,7 @@ struct Campaign {
       columns;  ///< of the data file, by quantity; without a file, those that campaign.yaml names
   std::vector<Run> runs;
   std::vector<IgnoredColumn> ignored{};  ///< they may tell that the rows are no runs (doubts/log_signs.hpp)
+  std::optional<Estimate> cone_index{}, cone_index_gradient{};  ///< as of a Soil; read by the model cone_index alone
 };
 
 inline constexpr const char* campaign_format = "soilbin-campaign/1";
@@ -85,6 +86,10 @@ void describe(Visitor& v, std::type_identity<Campaign>) {
   v.text("data", &Campaign::data, Need::optional, "the CSV of the runs, beside campaign.yaml");
   v.choice("force_frame", &Campaign::force_frame, Need::optional, "axes of drawbar pull and lateral force");
   v.choice("slip_by", &Campaign::slip_by, Need::optional, "the speed from which slip was computed");
+  v.number("cone_index", &Campaign::cone_index, Measure{"kPa", above_zero}, Need::optional,
+           "of fine-grained soil; absent: that of a soil of the library");
+  v.number("cone_index_gradient", &Campaign::cone_index_gradient, Measure{"MPa/m", above_zero}, Need::optional,
+           "of sand; absent: that of a soil of the library");
 }
 
 /// The wheel and soil of a campaign as a scenario for a model.

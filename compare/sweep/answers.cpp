@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bekker_wong/model.hpp"
+#include "cone_index/model.hpp"
 #include "resistive_force/model.hpp"
 #include "scenario/errors.hpp"
 
@@ -14,6 +15,8 @@ std::unique_ptr<const Model> make_model(ModelKind kind) {
       return std::make_unique<const bekker_wong::BekkerWong>();
     case ModelKind::rft:
       return std::make_unique<const resistive_force::ResistiveForce>();
+    case ModelKind::cone_index:
+      return std::make_unique<const cone_index::ConeIndex>();
     case ModelKind::dem:
       break;
   }

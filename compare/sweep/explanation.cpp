@@ -367,10 +367,11 @@ std::vector<Explained> explain(const Case& question) {
   std::vector<Explained> all;
   for (const ModelChoice& choice : question.study.models) {
     if (choice.model == ModelKind::dem) make_model(choice.model);  // says how grains are asked
-    if (choice.model == ModelKind::rft)
+    if (choice.model != ModelKind::bekker_wong)
       throw InputError(
-          "explain shows the equations of bekker_wong alone: leave 'rft' out here\n  hint: 'soilbin run' "
-          "answers by it, with the parts of its pull in --json");
+          fmt::format("explain shows the equations of bekker_wong alone: leave '{}' out here\n  hint: 'soilbin run' "
+                      "answers by it, with the parts of its pull in --json",
+                      word_of(choice.model)));
     const Scenario scenario = seen_by(choice, question.scenario);
     for (const OperatingCondition& at : question.study.conditions) all.push_back({choice, at, explain(scenario, at)});
   }

@@ -39,6 +39,7 @@ std::vector<std::string> parts_of(const std::string& label) {
 std::string model_in_words(const std::string& label) {
   if (label == "dem") return "grains";
   if (label == "rft") return "resistive force theory";
+  if (label == "cone_index") return "cone index";
   if (label == "dem-lammps") return "grains (LAMMPS)";
   if (const std::string packing = "dem packing "; label.starts_with(packing))
     return "grains, bed sample " + label.substr(packing.size());

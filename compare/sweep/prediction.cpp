@@ -35,11 +35,14 @@ ChannelError error_of(const std::vector<PredictedRun>& runs, std::size_t channel
 std::optional<double> residual(const PredictedRun& run, const ChannelView& channel) {
   const std::optional<double>& measured = run.measured.*channel.measured;
   if (!measured || !run.predicted.result) return std::nullopt;
-  return ((*run.predicted.result).*channel.predicted).value - *measured;
+  const double predicted = ((*run.predicted.result).*channel.predicted).value;
+  if (std::isnan(predicted)) return std::nullopt;  // a channel that the model doesn't know
+  return predicted - *measured;
 }
 
 Prediction predict(const Model& model, const Scenario& scenario, const Campaign& campaign, const Progress& progress) {
   Prediction prediction;
+  prediction.model = value_named<ModelKind>(model.name()).value_or(ModelKind::bekker_wong);
   for (const Run& run : campaign.runs) {
     const int row = static_cast<int>(prediction.runs.size()) + 1;
     prediction.runs.push_back({run.at.run.value_or(row), run, ask(model, scenario, run.at)});

@@ -34,6 +34,7 @@ struct Prediction {
   std::vector<PredictedRun> runs;    ///< in the order of the campaign
   std::vector<ChannelError> errors;  ///< a channel that was measured each
   std::size_t unsolved = 0;          ///< runs to which the model has no solution
+  ModelKind model = ModelKind::bekker_wong;
 };
 
 /// Predicts every run of a campaign at its own load, slip, angles, ... with the scenario's soil and effects.

@@ -219,11 +219,18 @@ std::string errors_in_words(const Scenario& asked) {
 
 std::string errors_in_words(const Case& question) {
   const auto analytic = std::ranges::find(question.study.models, ModelKind::bekker_wong, &ModelChoice::model);
-  const bool asks_rft = asks(question.study, ModelKind::rft);
-  if (analytic == question.study.models.end())
-    return asks_rft ? "± is one standard error from the standard deviations of xi_n and surface friction." : "";
-  return errors_in_words(seen_by(*analytic, question.scenario)) +
-         (asks_rft ? " Resistive force theory: from those of xi_n and surface friction." : "");
+  const bool has_analytic = analytic != question.study.models.end();
+  std::string text = has_analytic ? errors_in_words(seen_by(*analytic, question.scenario)) : "";
+  const auto add = [&](ModelKind kind, const char* name, const std::string& values) {
+    if (asks(question.study, kind))
+      text += text.empty() ? "± is one standard error from " + values : fmt::format(" {}: from {}", name, values);
+  };
+  const Soil& soil = question.scenario.soil;
+  add(ModelKind::rft, "Resistive force theory", "the standard deviations of xi_n and surface friction.");
+  add(ModelKind::cone_index, "Cone index",
+      fmt::format("the standard deviation of the {}; how far tires scatter about the relation is not in it.",
+                  soil.cone_index ? "cone index" : "cone index gradient"));
+  return text;
 }
 
 std::string in_words(const OperatingCondition& at) {

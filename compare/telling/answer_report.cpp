@@ -160,10 +160,11 @@ std::vector<PrintedValue> printed_values(const TractionResult& r, ForcesIn told)
   const std::string none = why_no_efficiency(r);
   all.push_back(
       {"Tractive efficiency", none.empty() ? efficiency_in_percent(r) : "none: " + none, none.empty() ? "%" : ""});
-  all.push_back({"Contact",
-                 fmt::format("entry {:.1f} deg, peak stress {:.1f} deg, exit {:.1f} deg", r.entry_angle / degree,
-                             r.max_stress_angle / degree, r.exit_angle / degree + 0.0),
-                 ""});
+  if (std::isfinite(r.entry_angle))
+    all.push_back({"Contact",
+                   fmt::format("entry {:.1f} deg, peak stress {:.1f} deg, exit {:.1f} deg", r.entry_angle / degree,
+                               r.max_stress_angle / degree, r.exit_angle / degree + 0.0),
+                   ""});
   if (std::isfinite(r.contact_area))
     all.push_back({"Ground pressure",
                    fmt::format("{} kPa: the load over {} cm² of contact, seen from above",
@@ -262,7 +263,11 @@ Report report_on(const Case& question, const std::vector<ModelAnswers>& study) {
   report.add(WarningsHere());
   if (several && curves_run_over(question.study.conditions) != nullptr)
     report.add("Curves", Figure(report.sheet, "Bands: one standard error."));
-  if (!several) report.add("Stresses under the wheel", Figure([&] { return stresses_of(study); }, ""));
+  const bool has_stresses = std::ranges::any_of(study, [](const ModelAnswers& model) {
+    const std::optional<TractionResult>& result = model.answers.front().result;
+    return result && !result->patch.empty();
+  });
+  if (!several && has_stresses) report.add("Stresses under the wheel", Figure([&] { return stresses_of(study); }, ""));
   std::vector<std::string> labels;
   for (const ModelAnswers& model : study) labels.push_back(model.choice.label);
   report.made_of = names_and_ids(labels);

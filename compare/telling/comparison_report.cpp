@@ -20,20 +20,22 @@ namespace {
 
 std::string named(const std::string& curve) { return curve.empty() ? "all conditions" : curve; }
 
-/// "the analytic wheel (bekker_wong), the same with effects, resistive force theory (rft), grains (dem) and
-/// measurements".
+/// "the analytic wheel (bekker_wong), the same with effects, resistive force theory (rft), the cone index
+/// (cone_index), grains (dem) and measurements".
 std::string sides_in_words(const Comparison& comparison) {
-  bool effects = false, rft = false, grains = false, measured = false;
+  bool effects = false, rft = false, cone = false, grains = false, measured = false;
   for (const Side& side : comparison.sides) {
     const bool analytic = side.kind == SideKind::analytic;
     rft = rft || (analytic && side.model == ModelKind::rft);
-    effects = effects || (analytic && side.model != ModelKind::rft && &side != comparison.sides.data());
+    cone = cone || (analytic && side.model == ModelKind::cone_index);
+    effects = effects || (analytic && side.model == ModelKind::bekker_wong && &side != comparison.sides.data());
     grains = grains || side.kind == SideKind::grains;
     measured = measured || side.kind == SideKind::measured;
   }
   std::vector<std::string> others;
   for (const auto& [there, name] : {std::pair{effects, "the same with effects"},
                                     {rft, "resistive force theory (rft)"},
+                                    {cone, "the cone index (cone_index)"},
                                     {grains, "grains (dem)"},
                                     {measured, "measurements"}})
     if (there) others.emplace_back(name);
@@ -89,7 +91,10 @@ std::string curves_in_words(const Comparison& comparison) {
   };
   std::string text;
   if (there(SideKind::analytic))
-    text += std::ranges::count(comparison.sides, ModelKind::rft, &Side::model) > 0
+    text += std::ranges::any_of(comparison.sides,
+                                [](const Side& side) {
+                                  return side.model != ModelKind::bekker_wong && side.kind == SideKind::analytic;
+                                })
                 ? "Lines: the quick models, with one standard error of the soil's values. "
                 : "Lines: the analytic wheel, with one standard error of the soil's values. ";
   if (there(SideKind::grains)) text += "Points on lines: grains, with one standard error of their runs. ";

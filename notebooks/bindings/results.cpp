@@ -8,6 +8,7 @@
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/answer_report.hpp"
+#include "cone_index/model.hpp"
 #include "notebooks/bindings/bindings.hpp"
 #include "resistive_force/model.hpp"
 #include "scenario/case.hpp"
@@ -111,6 +112,12 @@ void bind_models(py::module_& module) {
       "Three-dimensional granular resistive force theory (docs/theory/resistive-force.md): "
       "the tread as drawn, in milliseconds. Without a Soil.resistive_force it takes the "
       "soil's density and friction angle. It knows no effects.")
+      .def(py::init<>());
+  py::class_<cone_index::ConeIndex, Model>(
+      module, "ConeIndex",
+      "Pull and torque of a driven pneumatic tire by its soil's cone index (docs/theory/cone-index.md): Brixius's "
+      "relation where Soil.cone_index is declared, Turnage's where Soil.cone_index_gradient is. Sinkage, stresses and "
+      "angles are NaN. It knows no effects.")
       .def(py::init<>());
   module.def(
       "answers",

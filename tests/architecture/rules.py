@@ -9,11 +9,12 @@ FLOORS = {
     "bekker_wong": {"scenario", "bekker_wong"},
     "dem": {"scenario", "dem"},
     "resistive_force": {"scenario", "dem", "resistive_force"},
-    "compare": {"scenario", "bekker_wong", "dem", "resistive_force", "compare"},
-    "cli": {"scenario", "bekker_wong", "dem", "resistive_force", "compare", "cli"},
-    "notebooks": {"scenario", "bekker_wong", "dem", "resistive_force", "compare", "notebooks"},
-    "tests": {"scenario", "bekker_wong", "dem", "resistive_force", "compare", "cli", "tests"},
-    "bench": {"scenario", "bekker_wong", "dem", "resistive_force", "compare", "bench"},
+    "cone_index": {"scenario", "cone_index"},
+    "compare": {"scenario", "bekker_wong", "dem", "resistive_force", "cone_index", "compare"},
+    "cli": {"scenario", "bekker_wong", "dem", "resistive_force", "cone_index", "compare", "cli"},
+    "notebooks": {"scenario", "bekker_wong", "dem", "resistive_force", "cone_index", "compare", "notebooks"},
+    "tests": {"scenario", "bekker_wong", "dem", "resistive_force", "cone_index", "compare", "cli", "tests"},
+    "bench": {"scenario", "bekker_wong", "dem", "resistive_force", "cone_index", "compare", "bench"},
 }
 
 # Where a library's headers may be included: folders (ending in '/') and single files. A single file beside a folder's
@@ -23,7 +24,7 @@ LIBRARIES = {
     "yaml-cpp/": ["scenario/"],
     "Eigen/": ["scenario/", "bekker_wong/", "dem/surface/mass_properties.cpp", "compare/", "tests/", "bench/"],
     "nlohmann/": ["scenario/", "compare/", "cli/", "tests/", "bench/"],
-    "fmt/": ["scenario/", "bekker_wong/", "dem/", "resistive_force/", "compare/", "cli/", "notebooks/", "tests/", "bench/"],
+    "fmt/": ["scenario/", "bekker_wong/", "dem/", "resistive_force/", "cone_index/", "compare/", "cli/", "notebooks/", "tests/", "bench/"],
     # mass properties: Gauss's rule; resistive force: a root in a bracket; the server: Beast and Asio
     "boost/": ["dem/surface/mass_properties.cpp", "resistive_force/wheel.cpp", "compare/", "cli/serve/server.cpp", "tests/"],
     "CLI/": ["cli/"],

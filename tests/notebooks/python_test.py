@@ -64,6 +64,15 @@ class Answers(unittest.TestCase):
         self.assertEqual(list(frame.filter(like="budget_")), ["budget_tread", "budget_sides"])
         self.assertGreater(frame.sinkage[1], frame.sinkage[0])
 
+    def test_the_cone_index_is_a_model_too_and_tells_no_sinkage(self):
+        soil = soilbin.Soil(name="loam", cone_index=soilbin.Estimate(3e5, 3e4))
+        tire = soilbin.Tire(name="tire", radius=0.352, width=0.226, section_height=0.15, inflation_pressure=1.5e5)
+        frame = soilbin.sweep(soilbin.Scenario(tire, soil), soilbin.conditions(load=4e3, slip=[0.1, 0.3]), soilbin.ConeIndex())
+        self.assertTrue((frame.error == "").all())
+        self.assertTrue((frame.drawbar_pull_std_error > 0).all())
+        self.assertTrue(frame.sinkage.isna().all())
+        self.assertEqual(list(frame.filter(like="budget_")), ["budget_gross_traction", "budget_motion_resistance"])
+
     def test_a_condition_without_solution_is_a_row_with_its_error(self):
         frame = soilbin.sweep(ROVER, soilbin.conditions(load=[60.0, 1e5], slip=0.2))
         self.assertEqual(frame.error[0], "")

@@ -23,6 +23,7 @@ from soilbin import bekker_wong, compare, dem
 from soilbin._soilbin import (
     Bin,
     Case,
+    ConeIndex,
     ContactPair,
     Controller,
     Drive,
@@ -65,7 +66,7 @@ from soilbin._soilbin import (
 from soilbin.questions import SoilbinWarning, conditions, estimate, names, run_study, sweep
 
 __all__ = [
-    "Bin", "Case", "ContactPair", "Controller", "Drive", "EffectChoice", "EffectForm", "Estimate", "ForceFrame",
+    "Bin", "Case", "ConeIndex", "ContactPair", "Controller", "Drive", "EffectChoice", "EffectForm", "Estimate", "ForceFrame",
     "GranularSoil", "InputError", "LugPattern", "Lugs", "Model", "ModelKind", "NoSolution", "OperatingCondition",
     "ResistiveForce", "ResistiveForceSoil", "RollingResistance", "RunStopped", "Scenario", "SemiEmpiricalSoil", "Shelf", "SlipBy", "Soil", "SoilbinWarning",
     "Tire", "TractionResult", "Waypoint", "__version__", "bekker_wong", "cases_folders", "compare", "conditions", "dem",

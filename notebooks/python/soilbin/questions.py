@@ -14,6 +14,7 @@ from soilbin._soilbin import (
     Answer,
     BekkerWong,
     Case,
+    ConeIndex,
     Model,
     ModelKind,
     OperatingCondition,
@@ -146,7 +147,7 @@ def swept(scenario: Scenario, at: Iterable[OperatingCondition], model: Optional[
 @worded
 def run_study(case: Union[Case, str], progress: Progress = "shown", *, rigid: bool = False,
           no_lugs: bool = False) -> pd.DataFrame:
-    """The answers of a study's quick models (bekker_wong, rft) as sweep gives them, with a first column `model`.
+    """The answers of a study's quick models (bekker_wong, rft, cone_index) as sweep gives them, with a first column `model`.
 
     case: a Case, the name of a study in the library, or the path of a YAML file. Grains take minutes a condition: ask
     soilbin.dem.SoilBin for them. A tire with an inflation pressure is flexible or `rigid` as in estimate.
@@ -161,8 +162,9 @@ def run_study(case: Union[Case, str], progress: Progress = "shown", *, rigid: bo
             scenario = question.scenario.with_effects(choice.effects)
             frame = swept(scenario, question.study.conditions, None, progress)
             said += [one for one in frame.attrs.pop("warnings") if one not in said]
-        elif choice.model == ModelKind.rft:
-            frame = swept(question.scenario, question.study.conditions, ResistiveForce(), progress)
+        elif choice.model in (ModelKind.rft, ModelKind.cone_index):
+            model = ResistiveForce() if choice.model == ModelKind.rft else ConeIndex()
+            frame = swept(question.scenario, question.study.conditions, model, progress)
         else:
             continue
         frame.insert(0, "model", choice.label)

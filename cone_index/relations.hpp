@@ -1,0 +1,62 @@
+// What a cone penetrometer and a tire's measures tell of a driven wheel: mobility numbers, and gross traction and
+// motion resistance over the load by them. Dimensions are those of a pneumatic tire; all ratios are fits to tests.
+//
+//   const TireMeasures tire{.diameter = 0.704, .width = 0.226, .section_height = 0.15, .deflection = 0.02};  // [m]
+//   const double number = brixius_number(310e3, tire, 3892);  // 10.76, of a cone index [Pa] and a load [N]
+//   brixius(number, 0.1).net()                                // 0.198 of the load
+#pragma once
+
+namespace soilbin::cone_index {
+
+/// What the relations read of a tire [m], all > 0.
+struct TireMeasures {
+  double diameter = 0.0;        ///< d, unloaded, over the lugs
+  double width = 0.0;           ///< b, of the section
+  double section_height = 0.0;  ///< h, from the rim to the tread
+  double deflection = 0.0;      ///< delta, on firm ground under the load; below h
+};
+
+/// Forces along the ground over the load [-], and how they change with the mobility number.
+struct Ratios {
+  double gross = 0.0;       ///< gross traction: torque over rolling radius and load
+  double resistance = 0.0;  ///< motion resistance
+  double gross_slope = 0.0, resistance_slope = 0.0;
+
+  double net() const { return gross - resistance; }
+  double net_slope() const { return gross_slope - resistance_slope; }
+};
+
+/// Brixius's mobility number of fine-grained soil [-],
+///
+///   B_n = (CI b d/W) (1 + 5 delta/h)/(1 + 3 b/d),
+///
+/// CI: cone index [Pa], > 0; W: load [N], > 0. After Brixius (1987), Traction prediction equations for bias ply tires,
+/// ASAE paper 87-1622.
+double brixius_number(double cone_index, const TireMeasures& tire, double load);
+
+/// At a slip s of 0 .. 1 and B_n > 0, after the same paper,
+///
+///   gross = 0.88 (1 - e^(-0.1 B_n)) (1 - e^(-7.5 s)) + 0.04,   resistance = 1/B_n + 0.04 + 0.5 s/sqrt(B_n).
+///
+/// 0.04 is what the tire itself takes to roll: the torque gives it, and it does not reach the drawbar, so it stands in
+/// both and cancels. A public code (MAVS, brixius.cpp) has it in the resistance alone: its net traction is 0.04 less.
+Ratios brixius(double number, double slip);
+
+/// Turnage's mobility number of sand [-],
+///
+///   N_s = G (b d)^1.5/W delta/h,
+///
+/// G: growth of the cone index with depth [Pa/m], > 0. After Turnage (1972), WES.
+double turnage_number(double gradient, const TireMeasures& tire, double load);
+
+/// At a slip s of 0 .. 1 and N_s > 0,
+///
+///   gross = X (N_s + 10)/(N_s + 10 + Y),  X = 0.66, Y = 4.71 + 1.72/s,
+///
+/// as the documentation of MAVS gives it after Mason et al. (2018), J. Terramechanics 79; and at 20 % slip
+/// net = 0.53 - 4.5/(N_s + 3.7), as commonly quoted after Turnage (1984). Resistance is what the two leave at
+/// 20 % slip, and taken as that at every slip (our choice: no source that we could read gives a motion resistance that
+/// fits them). It falls from 0.34 at N_s = 5 to 0.09 at 50.
+Ratios turnage(double number, double slip);
+
+}  // namespace soilbin::cone_index

@@ -1,0 +1,68 @@
+// The relations of a mobility number: published numbers, limits, slopes.
+#include "cone_index/relations.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace soilbin::cone_index {
+namespace {
+
+/// The tire, load and soil of the unit test of MAVS: 0.02 m of deflection, which is 13 % of the section height.
+const TireMeasures mavs{.diameter = 0.704, .width = 0.226, .section_height = 0.15, .deflection = 0.02};
+
+TEST(Brixius, MeetsThePublishedNumber) { EXPECT_NEAR(brixius_number(310e3, mavs, 3892), 10.76, 0.005); }
+
+TEST(Brixius, HasANetTractionOf0198At10PercentSlipAnd004LessWithoutTheRollingTermOfTheTorque) {
+  const double number = brixius_number(310e3, mavs, 3892);
+  EXPECT_NEAR(brixius(number, 0.1).net(), 0.1978, 1e-4);
+  const double mavs_net[] = {0.1578, 0.2871, 0.3401};  // at 10, 20, 30 % slip, with the resistance's 0.04 alone
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(brixius(number, 0.1 * (i + 1)).net(), mavs_net[i] + 0.04, 1e-4) << i;
+}
+
+TEST(Brixius, OfAFreelyRollingWheelOnFirmGroundLeavesWhatTheTireTakes) {
+  const Ratios r = brixius(1e9, 0.0);
+  EXPECT_NEAR(r.gross, 0.04, 1e-9);
+  EXPECT_NEAR(r.resistance, 0.04, 1e-8);
+}
+
+TEST(Brixius, PullsAtMost088OfTheLoad) { EXPECT_NEAR(brixius(1e9, 1.0).net(), 0.88 * -std::expm1(-7.5), 1e-4); }
+
+TEST(Turnage, HasANumberThatGrowsWithTheStrengthAndFallsWithTheLoad) {
+  // G = 1 MPa/m: 1e6 (0.226 0.704)^1.5/3892 0.02/0.15
+  const double number = turnage_number(1e6, mavs, 3892);
+  EXPECT_NEAR(number, 1e6 * std::pow(0.226 * 0.704, 1.5) / 3892 * 0.02 / 0.15, 1e-12);
+  EXPECT_NEAR(turnage_number(2e6, mavs, 7784), number, 1e-12);
+}
+
+TEST(Turnage, MeetsThePullAt20PercentSlip) {
+  for (const double number : {5.0, 10.0, 30.0, 100.0})
+    EXPECT_NEAR(turnage(number, 0.2).net(), 0.53 - 4.5 / (number + 3.7), 1e-12) << number;
+}
+
+TEST(Turnage, HasTheGrossTractionOfItsHyperbola) {
+  const double s = 0.35, y = 4.71 + 1.72 / s;
+  EXPECT_NEAR(turnage(20, s).gross, 0.66 - 0.66 * y / (20 + 10 + y), 1e-12);
+  EXPECT_EQ(turnage(20, 0.0).gross, 0.0);
+}
+
+TEST(Turnage, ResistsMoreTheSofterTheSand) {
+  EXPECT_NEAR(turnage(5, 0.3).resistance, 0.337, 0.001);
+  for (double number = 5; number < 45; number += 5)
+    EXPECT_GT(turnage(number, 0.1).resistance, turnage(number + 5, 0.1).resistance) << number;
+}
+
+TEST(BothRelations, HaveTheSlopesOfTheirRatios) {
+  constexpr double step = 1e-5;
+  for (Ratios (*relation)(double, double) : {brixius, turnage})
+    for (const double number : {6.0, 20.0, 60.0})
+      for (const double slip : {0.05, 0.2, 0.6}) {
+        const Ratios at = relation(number, slip), above = relation(number + step, slip),
+                     below = relation(number - step, slip);
+        EXPECT_NEAR(at.gross_slope, (above.gross - below.gross) / (2 * step), 1e-9);
+        EXPECT_NEAR(at.resistance_slope, (above.resistance - below.resistance) / (2 * step), 1e-9);
+      }
+}
+
+}  // namespace
+}  // namespace soilbin::cone_index
