@@ -15,6 +15,7 @@
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
+#include "cone_index/vehicle.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/yaml_node.hpp"
@@ -81,6 +82,11 @@ CheckedFile judge(const fs::path& file, const Workplace& place) {
     if (soil.granular) append(doubts, compare::grain_value_doubts(*soil.granular));
     return {fmt::format("soil '{}'", soil.name), doubts};
   }
+  if (format == cone_index::vehicle_format) {
+    const cone_index::Vehicle vehicle = cone_index::parse_vehicle(read_source_text(file, largest_yaml));
+    cone_index::vehicle_cone_index(vehicle);  // refuses what no vehicle can be
+    return {fmt::format("vehicle '{}'", vehicle.name.empty() ? file.stem().string() : vehicle.name), {}};
+  }
   const Case question =
       read_case(file, place.library, place.effects);  // refuses any other format with the nearest word
   std::string asks;
@@ -110,7 +116,8 @@ int check(const std::string& name, bool json, const Session& session) {
 }  // namespace
 
 void add_check(CLI::App& app, Session& session) {
-  CLI::App* command = app.add_subcommand("check", "is a case, campaign, tire or soil valid, and does it make sense?");
+  CLI::App* command =
+      app.add_subcommand("check", "is a case, campaign, tire, soil or vehicle valid, and does it make sense?");
   const auto name = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
   add_value(*command, "file", *name, "CASE|CAMPAIGN", "a file, a campaign's folder, or a name of the library")

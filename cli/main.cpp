@@ -41,7 +41,13 @@ struct CommandGroup {
 std::vector<std::string> add_commands(CLI::App& app, Session& session) {
   const CommandGroup groups[] = {
       {"Ask about a wheel",
-       {{add_estimate}, {add_explain}, {add_limits}, with_grains(add_run), with_grains(add_drive), {add_serve}}},
+       {{add_estimate},
+        {add_explain},
+        {add_limits},
+        {add_mobility},
+        with_grains(add_run),
+        with_grains(add_drive),
+        {add_serve}}},
       {"Use measured data", {{add_design}, {add_runs}, {add_predict}, {add_loop}, {add_plates}, {add_shear}}},
       {"Set answers side by side",
        {with_grains(add_compare), {add_report}, with_grains(add_reproduce), with_grains(add_failure_map)}},

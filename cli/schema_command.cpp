@@ -6,9 +6,11 @@
 #include "cli/text_output.hpp"
 #include "compare/measured/campaign_schema.hpp"
 #include "compare/recorded/record.hpp"
+#include "cone_index/vehicle.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/schema.hpp"
+#include "scenario/schema_visitor.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -22,12 +24,14 @@ int schema(const std::string& what, const Session& session) {
     print_json(soil_schema());
   else if (what == "campaign")
     print_json(compare::campaign_schema(session.place.effects));
+  else if (what == "vehicle")
+    print_json(document_schema(cone_index::vehicle_format, "A soilbin vehicle", object_schema<cone_index::Vehicle>()));
   else if (what == "recorded")
     print_json(compare::record_schema());
   else
     throw InputError("no schema '" + clipped(what) + "'" +
-                     did_you_mean(what, {"case", "tire", "soil", "campaign", "recorded"}) +
-                     "\n  hint: one of case, tire, soil, campaign, recorded");
+                     did_you_mean(what, {"case", "tire", "soil", "campaign", "vehicle", "recorded"}) +
+                     "\n  hint: one of case, tire, soil, campaign, vehicle, recorded");
   return done;
 }
 
@@ -35,9 +39,9 @@ int schema(const std::string& what, const Session& session) {
 
 void add_schema(CLI::App& app, Session& session) {
   CLI::App* command =
-      app.add_subcommand("schema", "a file format as JSON Schema: case, tire, soil, campaign, recorded");
+      app.add_subcommand("schema", "a file format as JSON Schema: case, tire, soil, campaign, vehicle, recorded");
   const auto what = std::make_shared<std::string>("case");
-  add_value(*command, "format", *what, "FORMAT", "case (the default), tire, soil, campaign or recorded");
+  add_value(*command, "format", *what, "FORMAT", "case (the default), tire, soil, campaign, vehicle or recorded");
   command->callback([=, &session] { session.action = [=, &session] { return schema(*what, session); }; });
 }
 

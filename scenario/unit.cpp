@@ -24,7 +24,7 @@ struct Symbol {
 };
 
 // Factors: SI brochure, 9th edition; inch, foot, mile, pound exact by the 1959 agreement; g_n 9.80665 m/s^2 in lbf,
-// kgf.
+// kgf; a horsepower is 550 ft lbf/s.
 constexpr double pi = std::numbers::pi;
 constexpr std::array symbols = {
     Symbol{"1", 0, 0, 0, 0, 0, 1},
@@ -63,6 +63,7 @@ constexpr std::array symbols = {
     Symbol{"MJ", 2, 1, -2, 0, 6, 1},
     Symbol{"W", 2, 1, -3, 0, 0, 1},
     Symbol{"kW", 2, 1, -3, 0, 3, 1},
+    Symbol{"hp", 2, 1, -3, 0, 0, 745.6998715822702},
     Symbol{"Pa", -1, 1, -2, 0, 0, 1},
     Symbol{"hPa", -1, 1, -2, 0, 2, 1},
     Symbol{"kPa", -1, 1, -2, 0, 3, 1},
@@ -99,6 +100,7 @@ constexpr std::array names = {
     Named{"m/s", "a speed", "0.1 m/s"},
     Named{"N", "a force", "4 kN"},
     Named{"N*m", "a torque", "120 N m"},
+    Named{"W", "a power", "90 kW"},
     Named{"kg*m^2", "a moment of inertia", "0.02 kg m^2"},
     Named{"Pa", "a pressure", "3.63 kPa"},
     Named{"N/m", "a stiffness", "300 N/m"},

@@ -18,6 +18,10 @@ struct Scenario;
 struct Soil;
 }  // namespace soilbin
 
+namespace soilbin::cone_index {
+struct Mobility;
+}
+
 namespace soilbin::dem {
 struct AngleOfReposeResult;
 struct AnnulusRun;
@@ -64,6 +68,10 @@ Report report_on(const AnalyticDrive& drive);
 /// Drives of both models: how each ended, then what differs at the end that both reach steadily;
 /// soilbin-drive-sides/1.
 Report report_on(const DriveSides& drive);
+
+/// Whether a vehicle gets through, what it needs and by which parts, which sources were taken; soilbin-mobility/1.
+/// `soil`: the name of the one that the rating cone index is of; "" where it was given.
+Report report_on(const cone_index::Mobility& mobility, const std::string& soil);
 
 /// What measured plate tests gave: the values with the parts of their errors, each plate by itself, what was set aside,
 /// and the lines that a campaign or a soil file takes; readings and Bekker's form drawn; soilbin-plates/1. `file`: name

@@ -118,7 +118,7 @@ TEST(List, WithoutAWordTellsWhatEachNameIs) {
 }
 
 TEST(Schema, IsJsonForEachFormat) {
-  for (const char* what : {"case", "tire", "soil", "campaign"}) {
+  for (const char* what : {"case", "tire", "soil", "campaign", "vehicle"}) {
     const Outcome r = soilbin(std::string("schema ") + what);
     ASSERT_EQ(r.status, 0) << r.err;
     const nlohmann::json schema = r.json();
