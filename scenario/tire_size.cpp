@@ -94,6 +94,7 @@ std::optional<Tire> tire_of_size(const std::string& text) {
     sides =
         fmt::format("sides of {:g} % of that{}", aspect, size.aspect > 0.0 ? "" : " (assumed: the size tells none)");
   }
+  tire.section_height = tire.radius - size.rim * inch / 2;
   tire.source = fmt::format("{}{:.4g} mm wide, {} on a rim of {:g} in, so a radius of {:.4g} mm over an unknown tread",
                             by_size_alone, 1000 * tire.width, sides, size.rim, 1000 * tire.radius);
   return tire;

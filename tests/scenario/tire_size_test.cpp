@@ -50,6 +50,7 @@ TEST(TireSize, TellsRadiusAndWidth) {
 // the 14.00R20 of Project Chrono 1258 mm, data sheets of earthmovers' tires 1276 (12.00R24) and, with a tread that is
 // 50 mm deeper than others', 1666 mm (23.5R25).
 TEST(TireSize, SaysWhatItAssumes) {
+  EXPECT_NEAR(*tire_of_size("20.8-38")->section_height, 0.85 * 20.8 * 0.0254, 1e-12);
   EXPECT_NEAR(tire_of_size("20.8-38")->radius, 19 * 0.0254 + 0.85 * 20.8 * 0.0254, 1e-12);
   EXPECT_THAT(tire_of_size("20.8-38")->source, HasSubstr("sides of 85 % of that (assumed: the size tells none)"));
   EXPECT_THAT(tire_of_size("12.00R24")->source, HasSubstr("sides of 105 % of that (assumed"));
