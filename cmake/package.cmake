@@ -40,6 +40,6 @@ if(TARGET soilbin_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "jupyter-notebook, python3-ipywidgets")
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION
     "soilbin in Python: the analytic wheel, grains, measured campaigns and the loop as classes, numpy arrays and pandas
-frames, with six notebooks that teach terramechanics.")
+frames, with nine notebooks that teach terramechanics.")
 endif()
 include(CPack)
