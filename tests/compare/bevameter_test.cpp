@@ -121,9 +121,10 @@ TEST(Bevameter, WhatItWritesIsRead) {
     const double share = any.between(0, 0.3);
     const std::vector<PlateSet> sets = any.sets(share);
     const std::vector<ShearCurve> rings = any.rings(share);
-    Soil out;
+    Soil soil, out;
+    soil.name = "grains";
     try {
-      out = with_bevameter(Soil{.name = "grains"}, fit_bevameter(sets, rings), any.between(500, 3000), "virtual");
+      out = with_bevameter(soil, fit_bevameter(sets, rings), any.between(500, 3000), "virtual");
     } catch (const InputError&) {
       ++refused;
       continue;
