@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "compare/doubts/doubts.hpp"
 
@@ -69,6 +70,7 @@ FailureMapResult learn_map(const InclineMap& map, const MapGrains& grains, const
 
 Doubts doubts_of(const FailureMapResult& result, const MapGrains& grains) {
   Doubts all = doubts_at_rows(result);
+  if (result.by_twins) std::erase_if(all, [](const Doubt& one) { return one.kind == DoubtKind::coarse_grains; });
   if (const std::size_t older = grains.runs ? grains.store->of_other_engines(*grains.runs) : 0; older > 0)
     all.push_back({DoubtKind::earlier_engine, {older}});
   return all;

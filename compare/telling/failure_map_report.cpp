@@ -13,6 +13,7 @@
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/reports.hpp"
+#include "scenario/mapping_writer.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -83,7 +84,7 @@ std::string less_in_words(const InclineMap& map) {
   return fmt::format("{} less {}", one(map.of), one(map.against));
 }
 
-std::string in_words(Judged judged) {
+std::string judged_in_words(Judged judged) {
   return judged == Judged::agree ? "the models agree" : judged == Judged::differ ? "the models differ" : "not decided";
 }
 
@@ -228,7 +229,7 @@ HeatCell cell_at(const FailureMapResult& result, const VectorXd& values) {
   if (!result.rows.resolution_error.empty())
     cell.meaning +=
         fmt::format(", from infinitely fine grains {} %", in_percent(result.rows.at_fine(result.question, values)));
-  cell.meaning += ", " + in_words(judged);
+  cell.meaning += ", " + judged_in_words(judged);
   return cell;
 }
 
@@ -396,7 +397,7 @@ Table rows_table(const FailureMapResult& result) {
     }
     if (twins)
       cells.insert(cells.end(), {row.resolution_error ? in_percent(*row.resolution_error) : "-",
-                                 in_words(result.rows.judged(result.question, row.values))});
+                                 judged_in_words(result.rows.judged(result.question, row.values))});
     table.add(std::move(cells));
   }
   return table;
