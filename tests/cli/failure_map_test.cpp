@@ -80,6 +80,45 @@ TEST(SlowFailureMapCommand, TellsWhereThePapersTireParts) {
   }
 }
 
+/// The heavy tire's map from the library, of a model with these flags.
+nlohmann::json heavy_map(const std::string& model) {
+  const Outcome r = soilbin(
+      "failure-map heavy-lugged-incline --soil paper-sand-triaxial-virtual --load 10kN..40kN --lug-height 0mm..45mm "
+      "--angle 0deg..20deg --slip 5%..50% --boundary 0 --rounds 0 --coarser-twin --patch --graded 2 --bed-length 1m "
+      "--behind 0.6m --ahead 1.2m --travel 2.4m --settling-friction 0 --json --stored --store '" SOILBIN_SOURCE_DIR
+      "/cases/failure_maps/heavy-longitudinal.json' " +
+      model);
+  EXPECT_EQ(r.status, 0) << r.err;
+  return r.json();
+}
+
+/// Mean difference over the rows [share of the load], and its root mean square.
+std::pair<double, double> mean_and_rms(const nlohmann::json& map) {
+  double sum = 0.0, squares = 0.0, n = 0.0;
+  for (const auto& row : map["rows"])
+    if (!row["difference"].is_null()) {
+      const double value = row["difference"]["value"];
+      sum += value, squares += value * value, n += 1;
+      EXPECT_FALSE(row["resolution_error"].is_null());
+    }
+  return {sum / n, std::sqrt(squares / n)};
+}
+
+// docs/lab/failure-maps.md on the heavy lugged tire: the analytic wheel pulls too much, decided; the effects that it
+// lacks take half of that; resistive force theory, from density and friction angle alone, is near.
+TEST(SlowFailureMapCommand, DecidesAboutAHeavyLuggedTire) {
+  const nlohmann::json analytic = heavy_map("--effect lug_thrust:passive_blade");
+  EXPECT_GT(mean_and_rms(analytic).first, 0.20);
+  EXPECT_GT(analytic["shares"]["differ"].get<double>(), 0.8);
+  EXPECT_EQ(analytic["shares"]["agree"].get<double>(), 0.0);
+  EXPECT_LT(mean_and_rms(heavy_map("--effect slip_sinkage --effect bulldozing --effect interface_limit,a=0.18")).second,
+            0.6 * mean_and_rms(heavy_map("")).second);
+  const nlohmann::json rft = heavy_map("--of rft");
+  EXPECT_LT(mean_and_rms(rft).second, 0.08);
+  EXPECT_GT(rft["shares"]["agree"].get<double>(), 0.3);
+  EXPECT_EQ(rft["shares"]["differ"].get<double>(), 0.0);
+}
+
 TEST(FailureMapCommand, ADryRunListsTheRunsThatComeNext) {
   const Scratch scratch;
   const std::string map =
