@@ -82,7 +82,7 @@ TractionResult ConeIndex::evaluate(const Scenario& scenario, const OperatingCond
                slope = at.load * std::sin(at.longitudinal_incline), radius = tire.radius;
   result.drawbar_pull = {gross - resistance - slope, pressing * std::abs(ratios.net_slope()) * number.std_error};
   result.torque = {gross * radius, pressing * radius * std::abs(ratios.gross_slope) * number.std_error};
-  result.sinkage = {not_a_number, 0.0};
+  result.sinkage = {not_a_number, not_a_number};
   result.entry_angle = result.max_stress_angle = result.exit_angle = not_a_number;
   result.tractive_efficiency = tractive_efficiency(result, radius);
   result.budget = {{"gross_traction", gross}, {"motion_resistance", -resistance}};

@@ -15,7 +15,8 @@ namespace soilbin {
 /// How the source of such a tire begins: it says what the size tells and what is assumed.
 inline constexpr std::string_view by_size_alone = "by its size alone: ";
 
-/// The tire of a size: section width and height, and outer radius, smooth and rigid, since a size tells neither tread nor pressure.
+/// The tire of a size: section width and height, and outer radius, smooth and rigid, since a size tells neither tread
+/// nor pressure.
 /// - 600/65R28, 385/65R22.5, 710/45-26.5: width [mm], height of the sides [%] of it, rim [in]
 /// - 18.4-38, 16.00R20, 23.5R25: width and rim [in]. Sides of 85 % are assumed, of 105 % for a width of two decimals
 ///   (the 14.00R20 of the library has that, earthmovers' sizes 107 to 114 %); 12.5/80-18 tells them

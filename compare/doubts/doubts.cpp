@@ -9,31 +9,16 @@
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 #include "compare/doubts/column_doubts.hpp"
-#include "compare/doubts/cone_doubts.hpp"
 #include "compare/doubts/declared_doubts.hpp"
 #include "compare/doubts/grain_doubts.hpp"
+#include "compare/doubts/quick_model_doubts.hpp"
 #include "compare/doubts/row_doubts.hpp"
 #include "compare/doubts/unused_inputs.hpp"
 #include "compare/sweep/varying.hpp"
-#include "resistive_force/model.hpp"
 #include "scenario/deflection_table.hpp"
 #include "scenario/nearest_word.hpp"
 
 namespace soilbin::compare {
-
-Doubts resistive_force_doubts(const Soil& soil) {
-  Doubts all;
-  if (!soil.resistive_force && !soil.semi_empirical) return all;
-  const ResistiveForceSoil values = resistive_force::resistive_force_of(soil);
-  const auto& [xi_n, friction] = std::tie(values.xi_n, values.surface_friction);
-  if (!soil.resistive_force)
-    all.push_back({DoubtKind::rft_values_estimated,
-                   {xi_n.value / 1e6, xi_n.std_error / 1e6, friction.value, friction.std_error}});
-  constexpr double little_cohesion = 1000.0;  // [Pa]; a dry sand's
-  if (soil.semi_empirical && soil.semi_empirical->cohesion.value > little_cohesion)
-    all.push_back({DoubtKind::rft_without_cohesion, {soil.semi_empirical->cohesion.value / 1000}});
-  return all;
-}
 
 namespace {
 

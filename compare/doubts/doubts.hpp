@@ -73,7 +73,4 @@ Remark remarks_about(const Scenario& scenario);
 /// A remark for each run of a prediction, on the answer and on the measured row.
 std::vector<std::string> remarks_on(const Campaign& campaign, const Scenario& asked, const Prediction& prediction);
 
-/// What resistive force theory takes for a soil that does not declare its values, and what it can't know of it.
-Doubts resistive_force_doubts(const Soil& soil);
-
 }  // namespace soilbin::compare

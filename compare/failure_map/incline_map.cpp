@@ -71,6 +71,8 @@ PullAt error_by_study(const InclineMap& map, const MapGrains& grains) {
 /// What a model needs of the map's soil and wheel.
 void check_model(const InclineMap& map, ModelKind kind) {
   const Soil& soil = map.scenario.soil;
+  if (kind == ModelKind::cone_index)
+    throw InputError("a map takes bekker_wong, rft or dem: cone_index knows neither lugs nor cross slopes");
   if (kind == ModelKind::bekker_wong && !soil.semi_empirical)
     throw InputError(
         "soil '" + soil.name +

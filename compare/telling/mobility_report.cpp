@@ -18,14 +18,14 @@ std::string kilopascals(const Estimate& pressure) { return number(pressure, 1e-3
 
 std::string passes_in_words(const Passage& passage) { return passage.passes == 1 ? "1 pass" : "50 passes"; }
 
-/// "go: the rating cone index is 108 ± 30 kPa above the 191.6 kPa that the vehicle needs".
+/// "go; the rating cone index is 108 ± 30 kPa above the 191.6 kPa that the vehicle needs".
 std::vector<BackedSentence> verdicts_on(const Mobility& mobility) {
   std::vector<BackedSentence> verdicts;
   if (!mobility.passages) return verdicts;
   for (const Passage& one : *mobility.passages)
     verdicts.push_back(
         {passes_in_words(one),
-         fmt::format("{}: the rating cone index is {} {} the {} that the vehicle needs", one.go ? "go" : "no go",
+         fmt::format("{}; the rating cone index is {} {} the {} that the vehicle needs", one.go ? "go" : "no go",
                      kilopascals({std::abs(one.excess.value), one.excess.std_error}), one.go ? "above" : "below",
                      kilopascals({one.needed, 0}))});
   return verdicts;

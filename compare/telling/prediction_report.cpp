@@ -12,6 +12,7 @@
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/reports.hpp"
+#include "scenario/case.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -67,9 +68,12 @@ Table channel_errors_table(const Prediction& prediction) {
 
 Report report_on(const Prediction& prediction, const Campaign& campaign, const Scenario& asked,
                  const std::string& soil_from) {
+  Case question;
+  question.scenario = asked;
+  question.study.models = {{prediction.model, asked.effects, "", asked.errors, asked.misfit}};
   Report report{campaign.name, "A measured campaign beside the model's prediction; nothing is fitted.",
                 fmt::format("{}: {} runs of {}, predicted with {}\n{}", campaign.name, prediction.runs.size(),
-                            in_words(campaign.wheel), soil_from, errors_in_words(asked))};
+                            in_words(campaign.wheel), soil_from, errors_in_words(question))};
   report.sheet = drawn_once([&] { return campaign_sheet(campaign, prediction); });
   report.add("Over slip", Figure{report.sheet, "Points: measured; lines: predicted."});
   report.add("Predicted against measured",

@@ -126,6 +126,8 @@ TEST(InclineMap, TwoQuickModelsNeedNoGrains) {
   EXPECT_FALSE(question.waits());
   map.against = ModelKind::rft;
   EXPECT_THROW(failure_question(map, {}, 0.1), InputError) << "a model against itself";
+  map.of = ModelKind::cone_index;
+  EXPECT_THROW(failure_question(map, {}, 0.1), InputError) << "it knows neither lugs nor cross slopes";
 }
 
 TEST(InclineMap, RefusesAWheelWithoutLugsToVaryAndGrainsWithoutAnalyticValues) {

@@ -1,4 +1,5 @@
-// What is doubtful in answers by a cone index: a part of the list of doubts (doubts.hpp).
+// What is doubtful in answers of resistive force theory and of the cone index: a part of the list of doubts
+// (doubts.hpp).
 #pragma once
 
 #include <vector>
@@ -7,12 +8,16 @@
 
 namespace soilbin {
 struct Scenario;
+struct Soil;
 namespace cone_index {
 struct Mobility;
 }
 }  // namespace soilbin
 
 namespace soilbin::compare {
+
+/// What resistive force theory takes for a soil that does not declare its values, and what it can't know of it.
+Doubts resistive_force_doubts(const Soil& soil);
 
 /// What the model cone_index takes for a tire that does not declare it, where its relation was not tested, and what it
 /// can't answer.
