@@ -370,7 +370,7 @@ TEST(Report, TakesCampaignsBesideStudies) {
       soilbin("report rover-slip " SOILBIN_SOURCE_DIR "/cases/measured/cmu-smooth --output '" + page + "'");
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_THAT(text_of(page),
-              AllOf(HasSubstr("rover-slip"), HasSubstr("Prediction error without fitting (RMS over 89 runs")));
+              AllOf(HasSubstr("rover-slip"), HasSubstr("Prediction error without fitting (RMS over 90 runs")));
   EXPECT_EQ(soilbin("report cmu-smooth --output '" + page + "'").status, 0);
 }
 
