@@ -84,7 +84,7 @@ void check_steps(double steps, double step, const char* hint) {
 
 void DemModel::check(const Scenario& scenario, const OperatingCondition& at) const {
   wheel_motion(at, scenario.tire.radius);
-  check_patch(settings_.rig, at);
+  check_patch(settings_.rig);
   check(scenario);
   check_steps(expected_steps(scenario, at), step_of(recipe(scenario), settings_.rig),
               "a higher speed, a shorter way (--travel), shorter times of the rig, fewer passes");

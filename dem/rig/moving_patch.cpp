@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 #include <utility>
 
 #include "scenario/errors.hpp"
@@ -16,6 +17,16 @@ constexpr std::int64_t tiles_before = 2;
 
 /// Of one tile to its neighbours at most: a contact reaches no farther.
 constexpr std::int64_t reach_in_tiles = 1;
+
+/// The same contact, of a grain of a tile.
+TileOnSurface on_surface(const SurfaceContact& made, std::uint32_t grain) {
+  const auto& [slide, roll] = made.memory;
+  return {.grain = grain,
+          .body = made.who.body,
+          .surface = made.who.surface,
+          .normal = made.normal,
+          .memory = {slide.x, slide.y, slide.z, roll.x, roll.y, roll.z}};
+}
 
 }  // namespace
 
@@ -48,17 +59,13 @@ Tile tile_of(const Setup& setup, const State& state) {
   for (const SurfaceContacts& slab : state.surfaces)
     for (const SurfaceContact& made : slab.made) {
       if (made.triangle >= 0) throw InputError("a tile lies between planes, not meshes");
-      const auto& [slide, roll] = made.memory;
-      tile.on_surfaces.push_back({.grain = made.who.grain,
-                                  .body = made.who.body,
-                                  .surface = made.who.surface,
-                                  .normal = made.normal,
-                                  .memory = {slide.x, slide.y, slide.z, roll.x, roll.y, roll.z}});
+      tile.on_surfaces.push_back(on_surface(made, made.who.grain));
     }
   return tile;
 }
 
-MovingPatch::MovingPatch(Tile tile, const PatchSize& size) : tile_(std::move(tile)), size_(size) {
+MovingPatch::MovingPatch(Tile tile, const PatchSize& size, KeepsRut keeps)
+    : tile_(std::move(tile)), size_(size), keeps_(keeps == KeepsRut::yes) {
   double largest = 0;
   for (const TileGrain& grain : tile_.grains) largest = std::max(largest, grain.radius);
   if (!(size_.slab >= 2 * largest) || !(size_.slab <= tile_.length))
@@ -90,16 +97,21 @@ double MovingPatch::grains() const {
   return static_cast<double>(tile_.grains.size()) * (front() - rear() + 2 * size_.slab) / tile_.length;
 }
 
-/// Copies of the tile's grains with from <= x < to.
-void MovingPatch::for_each_between(
-    double from, double to, const std::function<void(std::int64_t image, std::uint32_t grain, double x)>& visit) const {
-  const auto tile_at = [&](double x) { return static_cast<std::int64_t>(std::floor(x / tile_.length)); };
+namespace {
+
+/// Copies of the tile's grains with from <= x < to: visit(image, grain, place).
+template <class Visit>
+void visit_between(const Tile& tile, double from, double to, const Visit& visit) {
+  const auto tile_at = [&](double x) { return static_cast<std::int64_t>(std::floor(x / tile.length)); };
   for (std::int64_t image = tile_at(from) - 1; image <= tile_at(to); ++image)
-    for (std::uint32_t grain = 0; grain < tile_.grains.size(); ++grain) {
-      const double x = place(image, grain).x;
-      if (x >= from && x < to) visit(image, grain, x);
+    for (std::uint32_t grain = 0; grain < tile.grains.size(); ++grain) {
+      Vec3 at = tile.grains[grain].position;
+      at.x += static_cast<double>(image) * tile.length;
+      if (at.x >= from && at.x < to) visit(image, grain, at);
     }
 }
+
+}  // namespace
 
 /// Of the copies with from <= x < to, contacts for whose ends `wanted` holds, and those with surfaces of grains for
 /// which it holds twice.
@@ -129,13 +141,13 @@ void MovingPatch::bring_contacts(double from, double to, Exchange& change,
 
 /// Copies with from <= x < to come in; those with free_from <= x < free_to are free, the others held.
 void MovingPatch::bring_grains(double from, double to, double free_from, double free_to, Exchange& change) const {
-  for_each_between(from, to, [&](std::int64_t image, std::uint32_t k, double x) {
+  visit_between(tile_, from, to, [&](std::int64_t image, std::uint32_t k, const Vec3& at) {
     const TileGrain& grain = tile_.grains[k];
     change.enters.push_back({.id = id(image, k),
                              .radius = grain.radius,
-                             .mass = x >= free_from && x < free_to ? grain.mass : held_mass,
+                             .mass = at.x >= free_from && at.x < free_to ? grain.mass : held_mass,
                              .material = static_cast<std::uint8_t>(grain.material),
-                             .position = place(image, k)});
+                             .position = at});
   });
 }
 
@@ -175,6 +187,7 @@ void MovingPatch::advance(Simulation& simulation) {
   const double old_rear = rear(), held_from = front(), enters_from = front(advances_ + 1);
   const double enters_to = front(advances_ + 2), new_rear = static_cast<double>(advances_ + 1) * size_.slab;
   note_disturbance(simulation, held_from - size_.slab, held_from);
+  if (keeps_) write_down(simulation, old_rear - size_.slab, new_rear);
   Exchange change;
   double largest = 0;
   for (const TileGrain& grain : tile_.grains) largest = std::max(largest, grain.radius);
@@ -185,7 +198,7 @@ void MovingPatch::advance(Simulation& simulation) {
     return true;
   };
   change.stays = [&](GrainId, const Motion& grain) { return grain.position.x < new_rear; };
-  for_each_between(held_from, enters_from, [&](std::int64_t image, std::uint32_t grain, double) {
+  visit_between(tile_, held_from, enters_from, [&](std::int64_t image, std::uint32_t grain, const Vec3&) {
     change.let_go.push_back({id(image, grain), tile_.grains[grain].mass});
   });
   bring_grains(enters_from, enters_to, enters_to, enters_to, change);
@@ -196,14 +209,65 @@ void MovingPatch::advance(Simulation& simulation) {
   ++advances_;
 }
 
+/// Adds to the rut who lies at from <= x < to and isn't in it yet, and the contacts that these have among each other
+/// and with those that are. Contacts of two grains that are held are needed nowhere.
+void MovingPatch::write_down(const Simulation& simulation, double from, double to) {
+  const State& state = simulation.state();
+  const Grains& grains = state.grains;
+  std::unordered_map<GrainId, std::uint32_t> in_rut;
+  for (std::uint32_t k = 0; k < in_rut_.size(); ++k) in_rut.emplace(in_rut_[k], k);
+  constexpr auto nowhere = ~std::uint32_t{0};
+  std::vector<std::uint32_t> place_of(grains.count(), nowhere);  // in the rut, of each row
+  const auto known = static_cast<std::uint32_t>(in_rut_.size());
+  for (std::size_t row = 0; row < grains.count(); ++row) {
+    const GrainId id = grains.id[row];
+    if (const auto there = in_rut.find(id); there != in_rut.end()) {
+      place_of[row] = there->second;
+      continue;
+    }
+    const Vec3& at = grains.motion[row].position;
+    if (at.x < from || at.x >= to) continue;
+    const TileGrain& was = tile_.grains[id % tile_.grains.size()];
+    place_of[row] = static_cast<std::uint32_t>(rut_.grains.size());
+    rut_.grains.push_back({at, was.radius, was.mass, was.material});
+    in_rut_.push_back(id);
+  }
+  const PairList& pairs = state.pairs;
+  for (std::size_t pair = 0; pair < pairs.first.size(); ++pair) {
+    if (!pairs.touches(pair)) continue;
+    const std::uint32_t a = place_of[pairs.first[pair]], b = place_of[pairs.second[pair]];
+    if (a == nowhere || b == nowhere || (a < known && b < known)) continue;
+    TileContact contact{.first = a, .second = b};
+    for (int what = 0; what < memory_size; ++what) contact.memory[what] = pairs.remembered(pair, what);
+    rut_.contacts.push_back(contact);
+  }
+  for (const SurfaceContacts& slab : state.surfaces)
+    for (const SurfaceContact& made : slab.made) {
+      const std::uint32_t grain = place_of[made.who.grain];
+      if (made.triangle >= 0 || grain == nowhere || grain < known) continue;  // a wheel, or who was there before
+      rut_.on_surfaces.push_back(on_surface(made, grain));
+    }
+}
+
+Simulation MovingPatch::back_over_its_rut(const Simulation& simulation, double way, KeepsRut keeps) {
+  const double end = front() + size_.slab;
+  write_down(simulation, rear() - size_.slab, end);
+  rut_.length = 2 * (end + size_.slab);  // it does not repeat itself: its images lie beyond what is looked at
+  if (undisturbed_.grains.empty()) undisturbed_ = std::move(tile_);
+  tile_ = std::exchange(rut_, {});
+  in_rut_.clear();
+  advances_ = 0;
+  keeps_ = keeps == KeepsRut::yes;
+  return open(simulation.setup(), simulation.state(), way);
+}
+
 SurfaceHeight MovingPatch::undisturbed(const Footprint& over, double spacing) const {
   SurfaceHeight out = bare_floor(over, spacing);
+  const Tile& tile = undisturbed_.grains.empty() ? tile_ : undisturbed_;
   double largest = 0;
-  for (const TileGrain& grain : tile_.grains) largest = std::max(largest, grain.radius);
-  for_each_between(over.x_lower - largest, over.x_upper + largest,
-                   [&](std::int64_t image, std::uint32_t grain, double) {
-                     raise(out, place(image, grain), tile_.grains[grain].radius);
-                   });
+  for (const TileGrain& grain : tile.grains) largest = std::max(largest, grain.radius);
+  visit_between(tile, over.x_lower - largest, over.x_upper + largest,
+                [&](std::int64_t, std::uint32_t k, const Vec3& at) { raise(out, at, tile.grains[k].radius); });
   return out;
 }
 

@@ -14,6 +14,10 @@
 // far leaves. What the tile itself holds, such as the grains on its floor, stays held. What is let go is in equilibrium
 // where the wheel has not moved the soil yet: `disturbed()` tells.
 //
+// A later pass goes over the rut of the one before. A patch that keeps its rut writes each grain down as it is held
+// behind the wheel, with what its contacts remember, and at its end all the others; `rut()` then takes the tile's
+// place, and enters ahead of the wheel at the next pass.
+//
 // Compare the moving patches of Chrono (Tasora et al. 2016; Projectchrono reference manual, "Chrono::Vehicle, granular
 // terrain"), which take away and add loose grains; here nothing falls into place again.
 #pragma once
@@ -69,15 +73,21 @@ struct PatchSize {
   double slab = 0;               ///< by which the patch advances; as thick as what is held at each end
 };
 
+enum class KeepsRut { no, yes };
+
 class MovingPatch {
  public:
   /// The axle begins at x = behind. Throws InputError for a slab thinner than the largest grain's diameter.
-  MovingPatch(Tile tile, const PatchSize& size);
+  MovingPatch(Tile tile, const PatchSize& size, KeepsRut keeps = KeepsRut::no);
 
   /// The patch as it begins: setup and bodies, gravity and time are the tile's; `way`: that the axle goes, at most [m].
   Simulation open(Setup setup, const State& tile, double way) const;
   /// Advances the patch by as many slabs as the axle has gone on.
   void follow(Simulation& simulation, double axle);
+  /// The patch where it began, now of the rut that it has left so far, up to where its grains are held ahead; it keeps
+  /// that of the next pass where `keeps` says so. No wheel may touch a grain. What has been thrown off the held grains
+  /// behind is lost. `way`: that the axle goes now, at most what it went before [m].
+  Simulation back_over_its_rut(const Simulation& simulation, double way, KeepsRut keeps);
 
   double rear() const { return static_cast<double>(advances_) * size_.slab; }  ///< x from which on grains are free [m]
   double front() const { return front(advances_); }                            ///< x up to which they are [m]
@@ -104,16 +114,19 @@ class MovingPatch {
   Vec3 place(std::int64_t image, std::uint32_t grain) const;
   GrainId id(std::int64_t image, std::uint32_t grain) const;
   Vec3 home(GrainId id) const;
-  void for_each_between(double from, double to,
-                        const std::function<void(std::int64_t image, std::uint32_t grain, double x)>& visit) const;
   void bring_contacts(double from, double to, Exchange& change,
                       const std::function<bool(double first, double second)>& wanted) const;
   void bring_grains(double from, double to, double free_from, double free_to, Exchange& change) const;
   void advance(Simulation& simulation);
   void note_disturbance(const Simulation& simulation, double from, double to);
+  void write_down(const Simulation& simulation, double from, double to);
 
-  Tile tile_;
+  Tile tile_;         ///< that enters ahead: settled, or of the pass before
+  Tile undisturbed_;  ///< as it has settled, where a rut has taken its place
   PatchSize size_;
+  bool keeps_ = false;
+  Tile rut_;                     ///< of this pass, as far as it is left behind
+  std::vector<GrainId> in_rut_;  ///< who its grains are in this pass
   std::int64_t advances_ = 0, thrown_ = 0;
   double disturbed_ = 0;
 };
@@ -132,8 +145,13 @@ void parts(Notes& notes, TileOnSurface& c) {
 }
 
 template <class Notes>
+void parts(Notes& notes, Tile& t) {
+  notes(t.length, t.grains, t.contacts, t.on_surfaces);
+}
+
+template <class Notes>
 void MovingPatch::state(Notes& notes) {
-  notes(advances_, thrown_, disturbed_, tile_.length, tile_.grains, tile_.contacts, tile_.on_surfaces);
+  notes(advances_, thrown_, disturbed_, keeps_, in_rut_, tile_, undisturbed_, rut_);
 }
 
 }  // namespace soilbin::dem

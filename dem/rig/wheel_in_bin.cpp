@@ -72,12 +72,8 @@ double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig) {
   return rig.travel > 0 ? std::min(rig.travel, room) : room;
 }
 
-void check_patch(const Rig& rig, const OperatingCondition& at) {
-  if (!rig.patch) return;
-  if (at.pass > 1)
-    throw InputError(fmt::format(
-        "pass {} on a moving patch: it has left the rut behind\n  hint: a fixed bed, without --patch", at.pass));
-  if (!(rig.until_error > 0 && rig.until_error < 1))
+void check_patch(const Rig& rig) {
+  if (rig.patch && !(rig.until_error > 0 && rig.until_error < 1))
     throw InputError(
         fmt::format("an error of the mean pull of {:.4g} of the load: above 0 and below 1", rig.until_error));
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -76,8 +77,8 @@ inline double slab_of_patch(const BedRecipe& recipe) { return 4 * recipe.grading
 /// too short for the way or too narrow, and for an axle that least_room keeps from where it begins or ends.
 double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig);
 
-/// Throws InputError for what a moving patch does not have: a later pass over the rut, which it has left behind.
-void check_patch(const Rig& rig, const OperatingCondition& at);
+/// Throws InputError for an error of the pull that a run on a moving patch can't go on until.
+void check_patch(const Rig& rig);
 
 /// How far from the axle, along the bin, a wheel that has sunk so far [m] reaches at the height of the surface [m].
 double reach_at(const Tire& tire, double sinkage);
@@ -100,8 +101,9 @@ class WheelInBinOf {
     run_.keep("bin", *this);
   }
 
-  /// way_in_bin of this bed, tire and rig.
-  double way() const { return way_in_bin(bed_.recipe.size, tire_, rig_); }
+  /// way_in_bin of this bed, tire and rig; on a moving patch at a later pass no more than that of the one before, whose
+  /// rut ends there [m].
+  double way() const { return std::min(way_in_bin(bed_.recipe.size, tire_, rig_), rut_way_); }
   /// Time in which gravity turns; 0 on level ground [s].
   double tilting() const;
   std::int64_t steps_of(double time) const;
@@ -115,6 +117,9 @@ class WheelInBinOf {
   void put_wheel();
   /// Cuts the moving patch out of the bed, which is a tile of it so far; nothing without Rig::patch.
   void open_patch();
+  /// Puts the patch back to where it began, on the rut that it has left over a `way` of the axle; the wheel touches no
+  /// grain. `pass`: that comes now.
+  void go_back_over_rut(double way, int pass);
   /// Brings `force` on evenly and lets the wheel rest under it.
   void lower(const Vec3& force);
   /// The soil's mean moment on the wheel over the second half of that rest [N m].
@@ -157,6 +162,7 @@ class WheelInBinOf {
   void state(Notes& notes) {
     notes(wheel_, surface_, next_look_, before_, moment_at_rest_, sample_);
     if (!rig_.patch) return;
+    notes(rut_way_);
     bool open = patch_.has_value();
     notes(open);
     if (!open) return;
@@ -168,6 +174,7 @@ class WheelInBinOf {
   void hold_floor();
   void put_body();
   void show();
+  KeepsRut keeps_rut_of(int pass) const { return pass < at_.pass ? KeepsRut::yes : KeepsRut::no; }
   PatchSize patch_size() const { return {rig_.behind, rig_.ahead, slab_of_patch(bed_.recipe)}; }
   Footprint window() const { return {patch_->rear(), patch_->front(), 0, bed_.recipe.size.width}; }
 
@@ -179,6 +186,7 @@ class WheelInBinOf {
   Run run_;
   int wheel_ = -1;
   double surface_ = 0, next_look_ = 0;
+  double rut_way_ = std::numeric_limits<double>::infinity();  ///< of the axle, over the rut of the pass before [m]
   SurfaceHeight before_;
   std::optional<MovingPatch> patch_;
   Vec3 moment_at_rest_;
@@ -237,9 +245,17 @@ void WheelInBinOf<Run>::open_patch() {
   if (!rig_.patch) return;
   if constexpr (std::is_same_v<Run, StagedRun>)
     run_.once([&] {
-      patch_.emplace(tile_of(simulation().setup(), simulation().state()), patch_size());
+      patch_.emplace(tile_of(simulation().setup(), simulation().state()), patch_size(), keeps_rut_of(1));
       simulation() = patch_->open(simulation().setup(), simulation().state(), way());
     });
+}
+
+template <class Run>
+void WheelInBinOf<Run>::go_back_over_rut(double way, int pass) {
+  if constexpr (std::is_same_v<Run, StagedRun>) {
+    rut_way_ = way;
+    simulation() = patch_->back_over_its_rut(simulation(), way, keeps_rut_of(pass));
+  }
 }
 
 template <class Run>

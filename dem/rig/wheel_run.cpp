@@ -8,7 +8,7 @@ namespace soilbin::dem {
 
 WheelRun run_wheel(const WheelOnBed& on, const OperatingCondition& at, const WorkOptions& how,
                    const Checkpoints& checkpoints) {
-  check_patch(on.rig, at);
+  check_patch(on.rig);
   return WheelRunStages<StagedRun>(on, at,
                                    [&] {
                                      const BedRecipe& recipe = on.bed.recipe;

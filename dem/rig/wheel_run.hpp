@@ -135,11 +135,10 @@ struct WheelRun {
 /// the same stretch at the same condition, each time lifted clear, taken back
 /// and lowered onto its rut; the last pass is told, its sinkage from the
 /// undisturbed surface. Throws InputError for a bed too short or narrow, RunStopped where a grain or the wheel is lost,
-/// NoSolution where the wheel digs itself in to the axle, Stopped. On a moving patch there is one pass: InputError for
-/// more. With a path in
-/// `checkpoints` the run is kept now and then, at its end too, and goes on from
-/// there: with the same bits, where all arguments but how and checkpoints are
-/// the same; InputError where they aren't.
+/// NoSolution where the wheel digs itself in to the axle, Stopped. On a moving patch a later pass goes over the rut
+/// that the patch has kept (MovingPatch::back_over_its_rut), and ends with it at the latest. With a path in
+/// `checkpoints` the run is kept now and then, at its end too, and goes on from there: with the same bits, where all
+/// arguments but how and checkpoints are the same; InputError where they aren't.
 WheelRun run_wheel(const WheelOnBed& on, const OperatingCondition& at, const WorkOptions& how = {},
                    const Checkpoints& checkpoints = {});
 

@@ -36,13 +36,13 @@ class WheelRunStages {
   /// For StagedRun::keep.
   template <class Notes>
   void state(Notes& notes) {
-    notes(samples_, flow_, clear_, moving_);
+    notes(samples_, flow_, clear_, gone_, moving_);
   }
 
  private:
   void stages();
   void move(const std::function<Vec3()>& way, double speed);
-  void take_back();
+  void take_back(int pass);
   void start();
   void let_turn();
   void drive();
@@ -64,6 +64,7 @@ class WheelRunStages {
   WheelInBinOf<Run> bin_;
   std::vector<WheelSample> samples_;  ///< of this pass
   FlowMeter flow_ = flow_meter();
+  double gone_ = 0;          ///< way of the axle in the pass before [m]
   double clear_ = 0;         ///< height of the axle at which the wheel touches nothing [m]
   std::int64_t moving_ = 0;  ///< steps of the move that it is in
 };
@@ -79,9 +80,9 @@ void WheelRunStages<Run>::move(const std::function<Vec3()>& way, double speed) {
   run_in_stages().once([&] { wheel().velocity = {}; });
 }
 
-/// Lifts the wheel clear of all grains, takes it back to where it began and puts it over its rut.
+/// Lifts the wheel clear of all grains, takes it back to where it began and puts it over its rut. `pass`: that comes.
 template <class Run>
-void WheelRunStages<Run>::take_back() {
+void WheelRunStages<Run>::take_back(int pass) {
   constexpr double lifting = 1, returning = 5;  // [m/s]
   run_in_stages().once([&] {
     const Grains& grains = own_grains(bin_.simulation());
@@ -92,10 +93,12 @@ void WheelRunStages<Run>::take_back() {
     wheel().free_translation = {false, false, false};
     wheel().turning = Turning::prescribed;
     wheel().applied_force = wheel().applied_torque = wheel().spin = {};
+    gone_ = bin_.travel();
     clear_ = std::max(top + tire_.radius + tire_.lugs.height + wheel_gap, wheel().position.z);
   });
   move([&] { return Vec3{0, 0, clear_ - wheel().position.z}; }, lifting);
   move([&] { return Vec3{-bin_.travel(), 0, 0}; }, returning);
+  if (rig_.patch) run_in_stages().once([&] { bin_.go_back_over_rut(gone_, pass); });
   move([&] { return Vec3{0, 0, bin_.free_height() - wheel().position.z}; }, lifting);
   run_in_stages().once([&] { wheel().free_translation = {false, false, true}; });
 }
@@ -180,7 +183,7 @@ void WheelRunStages<Run>::stages() {
   bin_.open_patch();
   bin_.put_wheel();
   for (int pass = 1; pass <= at_.pass; ++pass) {
-    if (pass > 1) take_back();
+    if (pass > 1) take_back(pass);
     bin_.lower({0, 0, motion_.load.z});
     start();
     drive();
