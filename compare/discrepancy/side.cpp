@@ -72,30 +72,14 @@ Side side_of(const ModelAnswers& answers) {
 
 namespace {
 
-/// Of each channel, over all runs of a side.
-using PackingScatters = std::array<std::optional<PackingScatter>, channel_views.size()>;
-
-bool is_known(const PackingScatters& all) {
-  return std::ranges::any_of(all, &std::optional<PackingScatter>::has_value);
-}
-
-/// Scatter of one run, error of the mean, and the freedom behind both.
-void add_scatter(const std::vector<const RecordedRun*>& solved, const PackingScatters& all, SidePoint& point) {
-  const double n = static_cast<double>(solved.size());
-  for (std::size_t c = 0; c < channel_views.size(); ++c) {
-    const auto channel = channel_views[c].predicted;
-    const double own = own_variance(solved, channel);
-    point.scatter[c] = std::sqrt(own);
-    if (all[c] && all[c]->factor > 1.0)
-      point.scatter[c] *= all[c]->factor, point.freedom[c] = all[c]->freedom;
-    else if (own == 0.0 && n > 1)
-      point.scatter[c] = scatter_between(solved, channel), point.freedom[c] = n - 1;
-    ((*point.result).*channel).std_error = point.scatter[c] / std::sqrt(n);
-  }
-}
+/// What all runs of a side tell of their scatter.
+struct ScatterOfAll {
+  ToldScatter told;
+  bool is_known = false;  ///< whether any condition has several packings
+};
 
 /// Runs of one condition as a point.
-SidePoint combine(const std::vector<const RecordedRun*>& runs, const PackingScatters& all) {
+SidePoint combine(const std::vector<const RecordedRun*>& runs, const ScatterOfAll& all) {
   SidePoint point;
   std::vector<const RecordedRun*> solved;
   for (const RecordedRun* run : runs)
@@ -105,8 +89,11 @@ SidePoint combine(const std::vector<const RecordedRun*>& runs, const PackingScat
     point.error = runs.empty() ? "not run" : runs.front()->answer.error;
     return point;
   }
-  point.result = mean_of_packings(solved);
-  add_scatter(solved, all, point);
+  point.result = told_answer(solved, all.told);
+  for (std::size_t c = 0; c < channel_views.size(); ++c) {
+    const RunScatter one = scatter_of_a_run(solved, all.told, c);
+    point.scatter[c] = one.deviation, point.freedom[c] = one.freedom;
+  }
   if (solved.size() < runs.size())
     point.doubts.push_back({DoubtKind::runs_without_result, {runs.size() - solved.size(), runs.size()}});
   double most = 0.0, void_ratios = 0.0;
@@ -118,15 +105,15 @@ SidePoint combine(const std::vector<const RecordedRun*>& runs, const PackingScat
   }
   point.void_ratio = void_ratios > 0 ? void_ratios / static_cast<double>(solved.size()) : not_a_number;
   if (point.unsteady > 0) point.doubts.push_back({DoubtKind::unsteady_runs, {point.unsteady, solved.size(), most}});
-  if (solved.size() == 1 && !is_known(all)) point.doubts.push_back({DoubtKind::one_bed_sample});
+  if (solved.size() == 1 && !all.is_known) point.doubts.push_back({DoubtKind::one_bed_sample});
   doubt_budget(point);
   return point;
 }
 
-PackingScatters scatters_of(const std::vector<RecordedRun>& runs) {
-  PackingScatters all;
-  for (std::size_t c = 0; c < all.size(); ++c) all[c] = packing_scatter(runs, channel_views[c].predicted);
-  return all;
+ScatterOfAll scatter_of_all(const std::vector<RecordedRun>& runs) {
+  const bool is_known = std::ranges::any_of(
+      channel_views, [&](const ChannelView& channel) { return packing_scatter(runs, channel.predicted).has_value(); });
+  return {told_scatter(runs), is_known};
 }
 
 std::vector<const RecordedRun*> at_condition(const std::vector<RecordedRun>& runs, const OperatingCondition& at) {
@@ -141,8 +128,8 @@ std::vector<const RecordedRun*> at_condition(const std::vector<RecordedRun>& run
 Side side_of(const std::string& label, const std::vector<RecordedRun>& runs,
              const std::vector<OperatingCondition>& conditions, const std::vector<RecordedRun>& coarser) {
   Side side{label, SideKind::grains, {}};
-  const PackingScatters scatters = scatters_of(runs), of_twins = scatters_of(coarser);
-  side.scatter_known = is_known(scatters);
+  const ScatterOfAll scatters = scatter_of_all(runs), of_twins = scatter_of_all(coarser);
+  side.scatter_known = scatters.is_known;
   for (const OperatingCondition& at : conditions) {
     SidePoint& point = side.points.emplace_back(combine(at_condition(runs, at), scatters));
     const std::vector<const RecordedRun*> twins = at_condition(coarser, at);

@@ -80,9 +80,9 @@ bool add_choice(std::vector<ModelChoice>& choices, std::vector<EffectChoice> eff
 /// A side for each choice, with its answers; none where the soil has no values for the analytic model.
 std::vector<Side> analytic_sides(Case question, const std::vector<ModelChoice>& choices, const Progress& progress = {});
 
-/// Runs as a side: each counts at the condition that it is alike, with mean_of_packings of those with a result. Scatter
-/// is what packing_scatter of all runs makes of their own errors, or these where they are larger: two packings at a
-/// condition say little of its scatter, all conditions together more. Doubts tell of runs that were not steady or had
+/// Runs as a side: each counts at the condition that it is alike, with told_answer of those with a result. Scatter is
+/// what told_scatter of all runs makes of their own errors: two packings at a condition say little of its scatter, all
+/// conditions together more. Doubts tell of runs that were not steady or had
 /// no result, and where no condition has several packings. `coarser`: runs with coarser grains (RunKind), for the error
 /// of resolution.
 Side side_of(const std::string& label, const std::vector<RecordedRun>& runs,

@@ -8,6 +8,7 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/recorded/recorded_model.hpp"
+#include "compare/sweep/varying.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -45,6 +46,42 @@ Json rows_with_runs(const Case& question, const StudyResults& results) {
     }
   }
   return rows;
+}
+
+/// What the runs of grains say of themselves, beside what the answers' notes say anyway.
+Doubts doubts_of_runs(const StudyResults& results) {
+  Doubts all;
+  for (const ModelAnswers& model : results.study) {
+    const std::vector<SidePoint> points = points_of(model, results);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (Doubt doubt : points[i].doubts) {
+        if (doubt.kind == DoubtKind::unsteady_runs || doubt.kind == DoubtKind::runs_without_result) continue;
+        doubt.at = model.answers[i].at;
+        all.push_back(std::move(doubt));
+      }
+  }
+  return once_each(all);
+}
+
+/// The errors of the grains' answers as told_answer has them, by all runs that there are: the record's that answers,
+/// or the kept one's, or those that were made.
+void tell_errors(StudyResults& results, const StudyGrains& grains) {
+  const std::filesystem::path& kept = grains.keeping.record;
+  const ToldScatter told = grains.recorded                 ? told_scatter(grains.recorded->record.runs)
+                           : std::filesystem::exists(kept) ? told_scatter(read_record(kept).runs)
+                                                           : told_scatter(results.runs);
+  for (ModelAnswers& model : results.study) {
+    if (model.choice.model != ModelKind::dem) continue;
+    for (Answer& answer : model.answers) {
+      if (!answer.result) continue;
+      std::vector<const RecordedRun*> runs;
+      for (const RecordedRun& run : results.runs)
+        if (alike(run.answer.at, answer.at)) runs.push_back(&run);
+      const TractionResult with_errors = told_answer(runs, told);
+      for (const ChannelView& channel : channel_views)
+        ((*answer.result).*channel.predicted).std_error = (with_errors.*channel.predicted).std_error;
+    }
+  }
 }
 
 /// Doubts in the answers, in the record that answered for grains, and in the one that their runs are added to.
@@ -151,7 +188,9 @@ StudyResults answer_study(const Case& question, const Case& whole, const StudyGr
     results.coarser = model->coarser();
     return model;
   });
+  tell_errors(results, grains);
   results.doubts = doubts_of_study(question, results, grains);
+  results.of_runs = doubts_of_runs(results);
   return results;
 }
 

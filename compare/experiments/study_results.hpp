@@ -37,6 +37,7 @@ struct StudyGrains {
 struct StudyResults {
   std::vector<ModelAnswers> study{};
   Doubts doubts{};
+  Doubts of_runs{};                         ///< of grains: what their runs say of themselves
   std::optional<dem::StepCriteria> step{};  ///< of grains (step_of)
   std::vector<RecordedRun> runs{};          ///< behind the grains' answers, in the order in which they came
   std::vector<RecordedRun> coarser{};       ///< of these, as far as there are any

@@ -99,6 +99,9 @@ void outcome_fields(Visitor& v, Run& run) {
           [&](auto& inner) { flow_fields(inner, run.flow); });
 }
 
+/// Told of a run whose errors aren't early ones (RecordedRun::early_errors).
+constexpr const char *errors_key = "std_error_by", *errors_of_now = "blocks and autocorrelation";
+
 constexpr const char* how_to_mend = "take that run out of the file, and the command that made it runs it again";
 
 Json lines_json(const std::string& text) {
@@ -130,6 +133,7 @@ Json run_json(const RecordedRun& run) {
     // The bare ratio, also where it is no efficiency: the mean of several packings weights every run's.
     row["tractive_efficiency"] = finite(run.answer.result->tractive_efficiency);
     outcome_fields(visitor, run);
+    if (!run.early_errors) row[errors_key] = errors_of_now;
   }
   if (run.sealed) put_seal(row);
   return row;
@@ -146,6 +150,7 @@ RecordedRun run_from_json(const Json& row, const std::string& place, bool seals_
     ReadJson visitor(row, place);
     run_fields(visitor, run);
     run.answer = answer_from_json(row, place);
+    run.early_errors = run.answer.result && !row.contains(errors_key);
     if (run.answer.result) outcome_fields(visitor, run);
     return run;
   });
@@ -289,6 +294,9 @@ Json record_schema() {
   row["properties"]["seal"] = seal_schema("the run's other members");
   row["properties"].update(condition_schema());
   row["properties"].update(solved.schema["properties"]);
+  row["properties"][errors_key] = {
+      {"const", errors_of_now},
+      {"description", "how the standard errors were made; absent in older runs, whose sinkage has too small a one"}};
   row["properties"]["error"] = {{"type", "string"}, {"description", "why there is no result"}};
   const Json without = {{"required", {"error"}}};
   row["anyOf"] = Json::array({without, Json{{"required", solved.schema["required"]}}});

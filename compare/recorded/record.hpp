@@ -60,6 +60,9 @@ struct RecordedRun {
   dem::SoilFlow flow;
   /// Whether a seal in the file vouches for it: not for runs of files from before there were seals. A new run gets one.
   bool sealed = true;
+  /// Whether its standard errors are from before those of few autocorrelation times were put right
+  /// (scenario/mean_value.hpp): then that of the sinkage is too small (usual_packing_factor).
+  bool early_errors = false;
   /// Removes the restart that the run could be had again from; to be called once the answer is kept. Not in the file.
   std::function<void()> on_saved{};
 };

@@ -147,11 +147,52 @@ std::optional<double> packing_factor(const Record& record, Estimate TractionResu
   return scatter->factor;
 }
 
-TractionResult mean_of_packings(const Runs& all) {
-  if (all.empty()) throw InputError("no bed sample to answer with: at least one is needed");
+double usual_packing_factor(const std::vector<RecordedRun>& runs, Estimate TractionResult::*channel) {
+  return channel == &TractionResult::sinkage && std::ranges::any_of(runs, &RecordedRun::early_errors) ? 2.0 : 1.0;
+}
+
+ToldScatter told_scatter(const std::vector<RecordedRun>& runs) {
+  ToldScatter told;
+  for (std::size_t c = 0; c < told.size(); ++c) {
+    const auto channel = traction_channels[c].predicted;
+    const double usual = usual_packing_factor(runs, channel);
+    const std::optional<PackingScatter> found = packing_scatter(runs, channel);
+    const double least = found && found->freedom >= least_freedom ? 1.0 : usual;
+    told[c] = found && found->factor > least ? *found : PackingScatter{least, std::numeric_limits<double>::infinity()};
+  }
+  return told;
+}
+
+RunScatter scatter_of_a_run(const Runs& runs, const ToldScatter& told, std::size_t channel) {
+  const auto of = traction_channels[channel].predicted;
+  if (const double own = own_variance(runs, of); own > 0.0 || runs.size() < 2)
+    return {told[channel].factor * std::sqrt(own), told[channel].freedom};
+  return {scatter_between(runs, of), static_cast<double>(runs.size() - 1)};
+}
+
+namespace {
+
+Runs solved_of(const Runs& all) {
   Runs runs;
   for (const RecordedRun* run : all)
     if (run->answer.result) runs.push_back(run);
+  return runs;
+}
+
+}  // namespace
+
+TractionResult told_answer(const Runs& all, const ToldScatter& told) {
+  TractionResult answer = mean_of_packings(all);
+  const Runs runs = solved_of(all);
+  for (std::size_t c = 0; c < told.size(); ++c)
+    (answer.*traction_channels[c].predicted).std_error =
+        scatter_of_a_run(runs, told, c).deviation / std::sqrt(static_cast<double>(runs.size()));
+  return answer;
+}
+
+TractionResult mean_of_packings(const Runs& all) {
+  if (all.empty()) throw InputError("no bed sample to answer with: at least one is needed");
+  const Runs runs = solved_of(all);
   if (runs.empty())
     throw NoSolution(all.size() == 1
                          ? all.front()->answer.error
@@ -187,7 +228,7 @@ std::vector<const RecordedRun*> RecordedModel::runs(const OperatingCondition& at
 TractionResult RecordedModel::evaluate(const Scenario&, const OperatingCondition& at) const {
   const Runs found = runs(at);
   if (found.empty()) throw NoSolution("not in the record: no run at " + in_words(at));
-  return mean_of_packings(found);
+  return told_answer(found, told_);
 }
 
 }  // namespace soilbin::compare

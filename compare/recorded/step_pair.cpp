@@ -35,7 +35,8 @@ std::vector<StepPair> step_pairs(const Record& record) {
   std::array<double, 3> factors{};
   bool widened = false;
   for (const std::size_t c : channels_in_plane) {
-    factors[c] = std::max(1.0, packing_factor(record, channel_views[c].predicted).value_or(1.0));
+    const auto channel = channel_views[c].predicted;
+    factors[c] = std::max(1.0, packing_factor(record, channel).value_or(usual_packing_factor(record.runs, channel)));
     widened |= factors[c] > 1;
   }
   std::vector<StepPair> pairs;

@@ -21,8 +21,9 @@ namespace soilbin::compare {
 struct StepPair {
   const RecordedRun *whole, *half;
   /// Half less whole, drawbar pull, torque, sinkage. Its error is that of both runs, widened by packing_factor
-  /// (recorded_model.hpp) where the record has packings enough to know it: a single run's errors don't hold what it
-  /// shares from its start to its end, as how deep it dug. None where either run has no result.
+  /// (recorded_model.hpp) where the record has packings enough to know it, else by usual_packing_factor: a run's early
+  /// errors don't hold what it shares from its start to its end, as how deep it dug. None where either run has no
+  /// result.
   std::optional<std::array<Estimate, 3>> difference;
   bool widened = false;  ///< whether any of the errors is
 };

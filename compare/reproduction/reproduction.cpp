@@ -254,29 +254,23 @@ std::vector<Answer> taken_as_exact(std::vector<Answer> answers) {
 
 std::vector<Answer> recorded_answers(const Record& record, const std::vector<OperatingCondition>& conditions,
                                      std::string& remark) {
-  std::array<double, channel_views.size()> factors{};
   remark.clear();
-  for (std::size_t c = 0; c < channel_views.size(); ++c) {
-    const std::optional<double> factor = packing_factor(record, channel_views[c].predicted);
-    factors[c] = std::max(1.0, factor.value_or(1.0));
-    if (factor) remark += fmt::format("{}{} {:.2g}", remark.empty() ? "" : ", ", channel_views[c].title, *factor);
-  }
-  remark = remark.empty() ? "errors are those of single runs: too few conditions have several bed samples"
-                          : "scatter between bed samples over the errors of single runs (errors are widened by it "
-                            "where it is above 1): " +
-                                remark;
+  for (const ChannelView& channel : channel_views)
+    if (const std::optional<double> factor = packing_factor(record, channel.predicted))
+      remark += fmt::format("{}{} {:.2g}", remark.empty() ? "" : ", ", channel.title, *factor);
+  if (remark.empty())
+    remark = usual_packing_factor(record.runs, &TractionResult::sinkage) > 1.0
+                 ? "errors are those of single runs, that of the sinkage twice as large: too few conditions have "
+                   "several bed samples"
+                 : "errors are those of single runs: too few conditions have several bed samples";
+  else
+    remark =
+        "scatter between bed samples over the errors of single runs (errors are widened by it where it is above "
+        "1): " +
+        remark;
   const RecordedModel model(record);
   std::vector<Answer> answers;
-  for (const OperatingCondition& at : conditions) {
-    answers.push_back(ask(model, {}, at));
-    if (!answers.back().result) continue;
-    const Runs runs = model.runs(at);
-    for (std::size_t c = 0; c < channel_views.size(); ++c) {
-      const auto channel = channel_views[c].predicted;
-      ((*answers.back().result).*channel).std_error =
-          factors[c] * std::sqrt(own_variance(runs, channel) / static_cast<double>(runs.size()));
-    }
-  }
+  for (const OperatingCondition& at : conditions) answers.push_back(ask(model, {}, at));
   return answers;
 }
 

@@ -112,8 +112,7 @@ Reproduction reproduce(const Findings& findings, const std::vector<StudyAnswers>
 /// share: taken for noise of each point they would hide every trend.
 std::vector<Answer> taken_as_exact(std::vector<Answer> answers);
 
-/// A record's answers to conditions; errors widened by packing_factor where that is above 1. `remark` says what was
-/// done.
+/// A record's answers to conditions, with errors as RecordedModel tells them. `remark` says what was done.
 std::vector<Answer> recorded_answers(const Record& record, const std::vector<OperatingCondition>& conditions,
                                      std::string& remark);
 

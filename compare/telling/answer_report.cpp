@@ -285,6 +285,7 @@ Report report_on(const Case& question, const StudyResults& results, const std::s
   if (curves_run_over(question.study.conditions) != nullptr)
     report.add("Curves", Figure(report.sheet, "Bands: one standard error."));
   report.notes = notes_on(results.runs, density);
+  for (std::string& remark : in_words(results.of_runs)) report.notes.push_back(std::move(remark));
   if (!any_result(results.study)) report.no_answer = "no condition of the study has a solution";
   return report;
 }

@@ -265,6 +265,47 @@ TEST(Packings, ScatterBetweenThemIsTheError) {
   EXPECT_THROW(mean_of_packings({}), InputError);
 }
 
+/// Five packings at 2 kN whose sinkages scatter by 3 mm where each run tells 1 mm, and one run at 4 kN.
+Record record_of_scatter() {
+  Record record;
+  std::uint64_t packing = 0;
+  for (const double millimetres : {-3, -3, 0, 3, 3}) {
+    record.runs.push_back(made_run(2000, 0.2, ++packing));
+    record.runs.back().answer.result->sinkage = {0.02 + 1e-3 * millimetres, 1e-3};
+  }
+  record.runs.push_back(made_run(4000, 0.2, 1));
+  record.runs.back().answer.result->sinkage = {0.05, 1.5e-3};
+  return record;
+}
+
+// A record that answers by itself, and a run alone beside others, tell the same.
+TEST(Packings, WhatOthersScatterByIsInTheErrorOfARunAlone) {
+  const Record record = record_of_scatter();
+  const RecordedModel model(record);
+  EXPECT_NEAR(model.evaluate({}, recorded_condition(4000, 0.2)).sinkage.std_error, 3 * 1.5e-3, 1e-15);
+  EXPECT_NEAR(model.evaluate({}, recorded_condition(2000, 0.2)).sinkage.std_error, 3e-3 / std::sqrt(5.0), 1e-15);
+  const TractionResult alone = told_answer({&record.runs.back()}, told_scatter(record.runs));
+  EXPECT_NEAR(alone.sinkage.std_error, 3 * 1.5e-3, 1e-15);
+  EXPECT_EQ(alone.torque.std_error, 0.2) << "torques agree: their own errors stand";
+  EXPECT_EQ(alone.sinkage.value, 0.05);
+}
+
+TEST(Packings, EarlyErrorsOfTheSinkageCountTwice) {
+  Record record = made_record();
+  record.runs = {made_run(2000, 0.2, 1)};
+  const auto at = recorded_condition(2000, 0.2);
+  EXPECT_EQ(RecordedModel(record).evaluate({}, at).sinkage.std_error, 1e-3);
+  record.runs[0].early_errors = true;
+  const Record back = parse_record({"r.json", record_text(record)});
+  EXPECT_TRUE(back.runs[0].early_errors);
+  EXPECT_FALSE(parse_record({"r.json", record_text(made_record())}).runs[0].early_errors);
+  EXPECT_EQ(RecordedModel(back).evaluate({}, at).sinkage.std_error, 2e-3);
+  EXPECT_EQ(RecordedModel(back).evaluate({}, at).drawbar_pull.std_error, 0.1);
+  // Two that agree by chance say little: three degrees of freedom or less leave the usual factor.
+  record.runs.push_back(made_run(2000, 0.2, 2));
+  EXPECT_NEAR(RecordedModel(record).evaluate({}, at).sinkage.std_error, 2e-3 / std::sqrt(2.0), 1e-15);
+}
+
 TEST(Record, AnOlderEfficiencyInTheWheelsAxesIsMended) {
   Record record = made_record();  // a yaw of 0.1, a wheel of 0.496 m
   TractionResult& told = *record.runs[0].answer.result;

@@ -74,6 +74,18 @@ TEST(StepPair, ErrorsHoldWhatPackingsScatterMoreThanTheirRunsTell) {
   EXPECT_FALSE(agrees(step_pairs(recorded({runs[0]}, {half})).at(0)));
 }
 
+// Sinkages of 4 mm that tell 1 mm each and differ by 3 mm: 2.1 of the pair's own errors, 1.1 where these are early
+// ones.
+TEST(StepPair, EarlyErrorsOfTheSinkageCountTwice) {
+  RecordedRun whole = pulling(1000, 30), half = pulling(1000, 30);
+  half.answer.result->sinkage.value += 0.003;
+  EXPECT_NEAR((*step_pairs(recorded({whole}, {half})).at(0).difference)[2].std_error, 0.001 * std::sqrt(2.0), 1e-12);
+  whole.early_errors = half.early_errors = true;
+  const StepPair pair = step_pairs(recorded({whole}, {half})).at(0);
+  EXPECT_NEAR((*pair.difference)[2].std_error, 0.002 * std::sqrt(2.0), 1e-12);
+  EXPECT_TRUE(pair.widened);
+}
+
 TEST(StepPair, OneThatDiffersIsToldThoughOthersAgree) {
   const Record record =
       recorded({pulling(1000, 30), pulling(2000, 30, 8000)}, {pulling(1000, 30), pulling(2600, 30, 8000)});
