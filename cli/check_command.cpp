@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
@@ -12,7 +13,6 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/recorded/step_pair.hpp"
-#include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
 #include "cone_index/vehicle.hpp"

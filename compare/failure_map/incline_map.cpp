@@ -28,6 +28,8 @@ PullAt quick_pull(const InclineMap& map, ModelKind kind) {
   return [map, model = std::shared_ptr(make_model(kind)), kind](const VectorXd& values) -> std::optional<Estimate> {
     Scenario scenario = scenario_at(map, values);
     if (kind != ModelKind::bekker_wong) scenario.effects.clear();
+    if (!is_lugged(scenario.tire))  // the effect would assume lugs
+      std::erase_if(scenario.effects, [](const EffectChoice& effect) { return effect.id == "lug_thrust"; });
     const Answer answer = ask(*model, scenario, condition_at(map, values));
     return answer.result ? std::optional(Estimate{answer.result->drawbar_pull.value, 0}) : std::nullopt;
   };

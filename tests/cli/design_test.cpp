@@ -21,7 +21,7 @@ TEST(DesignCommand, WritesRowsThatTheCampaignTakesOnceTheyAreFilledIn) {
   const std::string folder = (scratch / "").string(), rows = (scratch / "runs.csv").string();
   const Outcome outcome = soilbin("design '" + folder + "' --runs 12 --limit load=60N..140N --csv '" + rows + "'");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("12 runs to tell"));
+  EXPECT_THAT(outcome.out, HasSubstr("12 runs to separate"));
   std::string text = text_of(rows);
   EXPECT_THAT(text, StartsWith("run,setpoint,load_N,slip,drawbar_pull_N,torque_Nm,sinkage_m\n"));
   // As yet nothing is measured: a design may be asked again, and the loop says what is missing.

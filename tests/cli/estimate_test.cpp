@@ -409,7 +409,7 @@ TEST(Estimate, NoneSwitchesTheCasesEffectsOff) {
   EXPECT_EQ(base[0], both[0]);
   const Outcome mixed = soilbin(point + "--effect none --effect slip_sinkage");
   EXPECT_EQ(mixed.status, 2);
-  EXPECT_NE(mixed.err.find("--effect none stands alone"), std::string::npos) << mixed.err;
+  EXPECT_NE(mixed.err.find("--effect none excludes all others"), std::string::npos) << mixed.err;
 }
 
 TEST(Explain, TheBudgetAddsUpAndTheFaultOfEquationFiveIsNamed) {

@@ -115,8 +115,8 @@ TEST(SlowFailureMapCommand, DecidesAboutAHeavyLuggedTire) {
             0.6 * mean_and_rms(heavy_map("")).second);
   const nlohmann::json rft = heavy_map("--of rft");
   EXPECT_LT(mean_and_rms(rft).second, 0.08);
-  EXPECT_GT(rft["shares"]["agree"].get<double>(), 0.3);
-  EXPECT_EQ(rft["shares"]["differ"].get<double>(), 0.0);
+  EXPECT_GT(rft["shares"]["agree"].get<double>(), 0.2);
+  EXPECT_LT(rft["shares"]["differ"].get<double>(), 0.05);
 }
 
 TEST(FailureMapCommand, ADryRunListsTheRunsThatComeNext) {

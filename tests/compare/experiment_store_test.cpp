@@ -205,7 +205,7 @@ TEST(ExperimentStores, ThoseOfTheLibraryAreWrittenBackAsTheyAre) {
     EXPECT_TRUE(ExperimentStore(entry).text() == read_bytes(entry, 1 << 26)) << entry.path();
     ++files;
   }
-  EXPECT_EQ(files, 3);
+  EXPECT_EQ(files, 4);
 }
 
 TEST(ExperimentStores, SayWhereTheyAreNotAsExpected) {

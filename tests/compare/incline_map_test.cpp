@@ -130,6 +130,20 @@ TEST(InclineMap, TwoQuickModelsNeedNoGrains) {
   EXPECT_THROW(failure_question(map, {}, 0.1), InputError) << "it knows neither lugs nor cross slopes";
 }
 
+// Effect lug_thrust assumes lugs where a tire declares none; at the map's height of 0 the wheel is smooth.
+TEST(InclineMap, AtNoHeightTheAnalyticWheelIsSmooth) {
+  InclineMap map = slope_map();
+  map.against = ModelKind::rft;
+  const VectorXd values = (VectorXd(4) << 500, 0, 0, 0.2).finished();
+  const double smooth = failure_question(map, {}, 0.1).difference(values)->value;
+  map.scenario.effects = {{"lug_thrust", "side_factors", {{"a", 1.0}}}};
+  EXPECT_EQ(failure_question(map, {}, 0.1).difference(values)->value, smooth);
+  const VectorXd lugged = (VectorXd(4) << 500, 0.02, 0, 0.2).finished();
+  const double with = failure_question(map, {}, 0.1).difference(lugged)->value;
+  map.scenario.effects.clear();
+  EXPECT_GT(with, failure_question(map, {}, 0.1).difference(lugged)->value);
+}
+
 TEST(InclineMap, RefusesAWheelWithoutLugsToVaryAndGrainsWithoutAnalyticValues) {
   InclineMap map = slope_map();
   int runs = 0;

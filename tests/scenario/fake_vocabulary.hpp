@@ -16,7 +16,8 @@ struct FakeVocabulary : EffectVocabulary {
     if (id == "slip_sinkage")
       return {{"lyasko", {{"a", "-", 1.0, 0.0, 1.6, "amplitude"}}}, {"reece", {{"h", "mm", 0.01, 0.0, 0.2, "length"}}}};
     if (id == "lug_thrust")
-      return {{"blade", {{"share", "-", 1.0, 0.0, 2.0, "amplitude"}, {"angle", "deg", 0.5, 0.0, 1.5, "of the wedge"}}}};
+      return {{"blade", {{"share", "-", 1.0, 0.0, 2.0, "amplitude"}, {"angle", "deg", 0.5, 0.0, 1.5, "of the wedge"}}},
+              {"passive_blade", {{"a", "-", 1.0, 0.0, 2.0, "amplitude"}}}};
     if (id == "exit_angle")
       return {{"rebound", {{"lambda", "-", 0.3, 0.0, 1.1, "share"}}},
               {"unloading", {{"k_u", "kN/m^(n+3)", 1000.0, 0.0, 1e12, "stiffness"}}}};
