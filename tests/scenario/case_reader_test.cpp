@@ -124,7 +124,8 @@ TEST(CaseReader, AMisspeltKeyIsShownWithTheRightOne) {
             "case.yaml:4:3: unknown key 'raduis', did you mean 'radius'?\n"
             "  4 |   raduis: 250 mm\n"
             "    |   ^\n"
-            "  hint: keys here: name, source, radius, width, lugs, inflation_pressure, carcass_pressure, deflection, section_height");
+            "  hint: keys here: name, source, radius, width, lugs, inflation_pressure, carcass_pressure, deflection, "
+            "section_height");
   EXPECT_THAT(refused(with("count", "cuont")), HasSubstr("case.yaml:6:24: unknown key 'cuont', did you mean 'count'?"));
   EXPECT_THAT(refused(with("name: example", "nmae: example")),
               StartsWith("case.yaml:2:1: unknown key 'nmae', did you mean 'name'?"));
