@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "scenario/deflection_table.hpp"
 #include "scenario/errors.hpp"
@@ -13,11 +14,11 @@
 namespace soilbin::cone_index {
 namespace {
 
-/// By how much a tire flattens until its contact, b wide and as long as the chord of its radius, carries the load at
-/// the pressure [m]; the radius where it never does.
-double flattening(const Tire& tire, double load, double pressure) {
-  const double half = pressure > 0.0 ? load / (2.0 * pressure * tire.width) : tire.radius;
-  return half < tire.radius ? tire.radius - std::sqrt(tire.radius * tire.radius - half * half) : tire.radius;
+/// By how much a tire flattens until its contact carries the load at the pressure [m]. A torus of the tire's diameter d
+/// and width b meets the plane in an ellipse of the semi-axes sqrt(d delta) and sqrt(b delta), so W = pi p sqrt(d b)
+/// delta (stated). Infinite without a pressure.
+double flattening(const TireMeasures& tire, double load, double pressure) {
+  return load / (std::numbers::pi * pressure * std::sqrt(tire.diameter * tire.width));
 }
 
 void refuse_what_it_cannot_know(const OperatingCondition& at) {
@@ -42,7 +43,7 @@ TireTaken tire_taken(const Tire& tire, double load) {
     m.deflection = deflection_of(*tire.deflection, load, *tire.inflation_pressure);
   } else {
     taken.deflection = DeflectionFrom::pressure;
-    m.deflection = flattening(tire, load, *declared_ground_pressure(tire));
+    m.deflection = flattening(m, load, *declared_ground_pressure(tire));
   }
   if (!(m.deflection < m.section_height))
     throw InputError(

@@ -21,7 +21,7 @@ inline constexpr const char* model_name = "cone_index";
 /// Where the deflection on firm ground comes from.
 enum class DeflectionFrom {
   table,     ///< the maker's, at this load and inflation pressure
-  pressure,  ///< the load over inflation and carcass pressure is the area of contact, b wide
+  pressure,  ///< the load over inflation and carcass pressure is the area of contact, that of a torus on a plane
   assumed,   ///< usual_deflection of the section height: the tire declares no inflation pressure
 };
 

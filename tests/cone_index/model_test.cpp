@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
@@ -94,10 +95,11 @@ TEST(ConeIndex, TakesTheDeflectionFromTheTablePressureOrAsUsual) {
   Tire tire = on_loam().tire;
   EXPECT_EQ(tire_taken(tire, 3892).deflection, DeflectionFrom::table);
   EXPECT_NEAR(tire_taken(tire, 3892).measures.deflection, 0.02, 1e-12);
-  tire.deflection.reset();  // 3892 N over 150 kPa and 0.226 m: a contact of 115 mm
-  const double half = 3892 / (2 * 150e3 * 0.226);
+  tire.deflection.reset();  // 3892 N over 150 kPa: an ellipse of 0.0259 m^2, which is 20.7 mm deep; the table has 20
   EXPECT_EQ(tire_taken(tire, 3892).deflection, DeflectionFrom::pressure);
-  EXPECT_NEAR(tire_taken(tire, 3892).measures.deflection, 0.352 - std::sqrt(0.352 * 0.352 - half * half), 1e-12);
+  EXPECT_NEAR(tire_taken(tire, 3892).measures.deflection, 3892 / (std::numbers::pi * 150e3 * std::sqrt(0.704 * 0.226)),
+              1e-12);
+  EXPECT_NEAR(tire_taken(tire, 3892).measures.deflection, 0.02, 0.001);
   tire.inflation_pressure.reset();
   EXPECT_EQ(tire_taken(tire, 3892).deflection, DeflectionFrom::assumed);
   EXPECT_NEAR(tire_taken(tire, 3892).measures.deflection, 0.2 * 0.15, 1e-12);
