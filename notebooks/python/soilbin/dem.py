@@ -124,7 +124,7 @@ def angle_of_repose(soil: GranularSoil, *, packing: int = 1, radius: float = 6, 
 def run_wheel(bin: SoilBin, scenario: Scenario, at: OperatingCondition, progress: Progress = "shown") -> WheelRun:
     """One run of the virtual soil bin (docs/guide/soil-bin.md); the bed is settled once and kept by `bin`.
 
-    Raises InputError for a bed too small and for what grains can't do (effects, a second pass), NoSolution where the
+    Raises InputError for a bed too small and for what grains can't do (effects), NoSolution where the
     wheel digs itself in, RunStopped.
     """
     return bin.run(scenario, at, told_to(progress))
