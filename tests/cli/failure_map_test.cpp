@@ -83,7 +83,7 @@ TEST(SlowFailureMapCommand, TellsWhereThePapersTireParts) {
 /// The heavy tire's map from the library, of a model with these flags.
 nlohmann::json heavy_map(const std::string& model) {
   const Outcome r = soilbin(
-      "failure-map heavy-lugged-incline --soil paper-sand-triaxial-virtual --load 10kN..40kN --lug-height 0mm..45mm "
+      "failure-map heavy-lugged-incline --load 10kN..40kN --lug-height 0mm..45mm "
       "--angle 0deg..20deg --slip 5%..50% --boundary 0 --rounds 0 --coarser-twin --patch --graded 2 --bed-length 1m "
       "--behind 0.6m --ahead 1.2m --travel 2.4m --settling-friction 0 --json --stored --store '" SOILBIN_SOURCE_DIR
       "/cases/failure_maps/heavy-longitudinal.json' " +
