@@ -222,11 +222,7 @@ Remark remarks_about(const Scenario& scenario, const StudyResults& results) {
 }
 
 Json to_json(const Case& question, const StudyResults& results) {
-  Json document = {{"format", "soilbin-run/1"},
-                   {"study", question.study.name},
-                   {"tire", question.scenario.tire.name},
-                   {"soil", question.scenario.soil.name},
-                   {"rows", rows_with_runs(question, results)}};
+  Json document = run_json(question, rows_with_runs(question, results));
   add_warnings(document, results.doubts);
   if (results.step) document["dem"] = to_json(*results.step);
   return document;

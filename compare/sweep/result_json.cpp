@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "compare/measured/channels.hpp"
 #include "compare/report/number_text.hpp"
@@ -176,6 +177,14 @@ Json rows_json(const std::vector<ModelAnswers>& study) {
       rows.push_back(std::move(row));
     }
   return rows;
+}
+
+Json run_json(const Case& question, Json rows) {
+  return {{"format", "soilbin-run/1"},
+          {"study", question.study.name},
+          {"tire", question.scenario.tire.name},
+          {"soil", question.scenario.soil.name},
+          {"rows", std::move(rows)}};
 }
 
 Json to_json(const Prediction& prediction, const std::string& campaign) {

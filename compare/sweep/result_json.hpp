@@ -29,6 +29,9 @@ Json condition_schema();
 /// Every answer of every model as a flat list; each row names its model.
 Json rows_json(const std::vector<ModelAnswers>& study);
 
+/// soilbin-run/1 with these rows, as yet without warnings.
+Json run_json(const Case& question, Json rows);
+
 /// soilbin-predict/1: of each run the number, what was predicted as of any answer, its condition, what was measured and
 /// the residual; then the errors.
 Json to_json(const Prediction& prediction, const std::string& campaign);

@@ -6,9 +6,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <utility>
 
 #include "bekker_wong/effect.hpp"
-#include "compare/experiments/study_results.hpp"
+#include "compare/doubts/doubt.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/shell_words.hpp"
 #include "compare/sweep/answer_sheets.hpp"
@@ -356,7 +357,11 @@ std::vector<KeyFigure> key_figures(const std::vector<StudyPart>& studies, const 
 /// soilbin-report/1: of each study soilbin-run/1, of each campaign soilbin-predict/1.
 Json studies_json(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns) {
   Json document = {{"format", "soilbin-report/1"}, {"studies", Json::array()}, {"campaigns", Json::array()}};
-  for (const StudyPart& part : studies) document["studies"].push_back(to_json(part.question, {.study = part.study}));
+  for (const StudyPart& part : studies) {
+    Json study = run_json(part.question, rows_json(part.study));
+    add_warnings(study, {});  // the page's own stand beside it
+    document["studies"].push_back(std::move(study));
+  }
   for (const CampaignPart& part : campaigns)
     document["campaigns"].push_back(to_json(part.prediction, part.campaign.name));
   return document;
