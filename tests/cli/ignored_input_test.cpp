@@ -41,6 +41,7 @@ const std::map<std::string, std::string>& samples() {
       {"--width", "110mm"},
       {"--inflation-pressure", "50kPa"},
       {"--carcass-pressure", "20kPa"},
+      {"--section-height", "60mm"},
       {"--lug-height", "9mm"},
       {"--lug-count", "13"},
       {"--lug-thickness", "4mm"},
