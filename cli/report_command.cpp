@@ -13,6 +13,7 @@
 #include "compare/doubts/named_doubts.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/studies_report.hpp"
+#include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
 

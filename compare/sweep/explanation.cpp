@@ -12,6 +12,7 @@
 #include "compare/sweep/result_json.hpp"
 #include "scenario/deflection_table.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/mapping_writer.hpp"
 #include "scenario/quantity.hpp"
 #include "scenario/soil_parameters.hpp"
 #include "scenario/unit.hpp"
