@@ -75,11 +75,6 @@ void show_run(const dem::Progress& at) {
   show_progress_line(std::string(at.stage));
 }
 
-compare::FailureMapAbout about(const FailureMapOptions& asked, const Case& question, const compare::InclineMap& map,
-                               const Session& session) {
-  return {"Failure map: " + name_of(map.incline), write_case(question, session.place.effects), asked.rows};
-}
-
 /// Experiments that are to be made: with the soil's grains, and with coarser ones.
 struct PlannedExperiments {
   const std::vector<compare::ExperimentSpec>&usual, &coarser;
@@ -118,24 +113,20 @@ int plan(const FailureMapOptions& asked, Case question, const compare::InclineMa
   return done;
 }
 
-/// Of a map without grains: two quick models, of which nothing is kept.
-int map_of_quick_models(const FailureMapOptions& asked, const Case& question, const compare::InclineMap& map,
-                        const compare::MapLearning& how, const Session& session) {
-  const compare::FailureMapResult result = compare::learn_map(map, {}, how);
-  clear_progress_line();
-  return publish(compare::report_on(result, about(asked, question, map, session)), asked.outputs, doubts_of(result, {}),
-                 session)
-      .status(done);
+/// The map's answer in all outputs that were asked for; gives the exit status.
+int tell(const compare::FailureMapResult& result, const compare::MapGrains& grains, const FailureMapOptions& asked,
+         const Case& question, const Session& session) {
+  const compare::FailureMapAbout about{"Failure map: " + name_of(result.map.incline),
+                                       write_case(question, session.place.effects), asked.rows};
+  return publish(compare::report_on(result, about), asked.outputs, doubts_of(result, grains), session).status(done);
 }
 
 int failure_map(const FailureMapOptions& asked, const CLI::App& command, const Session& session) {
   Case question = find_study(session.place, asked.study);
-  const compare::InclineMap as_asked = map_of(asked, question, session.place);
-  const bool grains_asked = as_asked.of == ModelKind::dem || as_asked.against == ModelKind::dem;
-  check_flags_of_grains(asked.soil_bin, command, question, {.asked = grains_asked, .hint = "--against dem"});
   const AnalyticSoil values(asked.soil, session.place.library, question.scenario.soil);
-  compare::InclineMap map = as_asked;
-  map.scenario.soil = question.scenario.soil;
+  const compare::InclineMap map = map_of(asked, question, session.place);
+  const bool grains_asked = map.of == ModelKind::dem || map.against == ModelKind::dem;
+  check_flags_of_grains(asked.soil_bin, command, question, {.asked = grains_asked, .hint = "--against dem"});
   const compare::MapLearning how{.runs = {.first = asked.first,
                                           .at_boundary = asked.at_boundary,
                                           .at_once = std::max(asked.dry_run ? asked.at_boundary : 1, asked.batch.ask),
@@ -144,7 +135,11 @@ int failure_map(const FailureMapOptions& asked, const CLI::App& command, const S
                                  .rounds = asked.rounds,
                                  .fresh = asked.fresh,
                                  .tolerance = read_flag("--tolerance", asked.tolerance, {"%", above_zero})};
-  if (!grains_asked) return map_of_quick_models(asked, question, map, how, session);
+  if (!grains_asked) {
+    const compare::FailureMapResult result = compare::learn_map(map, {}, how);
+    clear_progress_line();
+    return tell(result, {}, asked, question, session);
+  }
   if (!asked.stored && !asked.store.empty())  // what is only read may lie anywhere
     if (const std::string why = why_not_writable(asked.store); !why.empty()) throw InputError("--store: " + why);
   asked.batch.check(asked.store);
@@ -168,9 +163,7 @@ int failure_map(const FailureMapOptions& asked, const CLI::App& command, const S
     if (asked.dry_run) return plan(asked, question, map, {*runs.asked, *coarser.asked});
     if (grains.waits()) return asked.batch.write(runs);
     result.map.scenario.soil.name = values.title(true);
-    return publish(compare::report_on(result, about(asked, question, map, session)), asked.outputs,
-                   doubts_of(result, grains), session)
-        .status(done);
+    return tell(result, grains, asked, question, session);
   } catch (const Interrupted&) {
     if (!asked.store.empty())
       fmt::print(stderr, "\n{} runs are in {}: the same command goes on from there", store.size(), asked.store);
