@@ -79,6 +79,10 @@ constexpr SettingFlag measure_flags[] = {
      setting<&dem::DemSettings::graded>,
      {.lower = 1, .upper = 4},
      true},
+    {"--graded-for", "LENGTH",
+     "with --graded: height of lugs for which the bed is fine too; a tire with lower lugs then "
+     "runs on the same bed; the tire's own",
+     setting<&dem::DemSettings::highest_lugs>, above_zero, true},
     {"--behind", "LENGTH", "distance from the axle to the bin's rear end at the start; {} m", rig<&R::behind>},
     {"--ahead", "LENGTH", "distance from the axle to the bin's front end when the run ends; {} m", rig<&R::ahead>},
     {"--travel", "LENGTH", "distance that the axle travels; as far as the bin allows", rig<&R::travel>},
@@ -162,6 +166,8 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
     set_where_given(one.flag, flags.text(one.flag), one.measure(), one.of(settings));
   };
   for (const SettingFlag& one : measure_flags) set(one);
+  if (settings.highest_lugs > 0 && settings.graded == 1)
+    throw InputError("--graded-for has no effect on a bed of the soil's grains everywhere\n  hint: --graded 2");
   set(starting_flag), set(until_error_flag);
   settings.rig.patch = flags.patch;
   if (!flags.text(until_error_flag.flag).empty() && !(flags.patch && flags.text("--travel").empty()))

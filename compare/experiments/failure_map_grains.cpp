@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "scenario/errors.hpp"
@@ -11,7 +12,7 @@ namespace soilbin::compare {
 
 VirtualTest map_grains(const InclineMap& map, const dem::DemSettings& asked, const RunKeeping& keeping) {
   dem::DemSettings settings = asked;
-  settings.highest_lugs = map.factors.at(map_lug_height).upper;
+  settings.highest_lugs = std::max(settings.highest_lugs, map.factors.at(map_lug_height).upper);
   VirtualTest test;
   test.identity = fmt::format("soil bin, {}, speed {}", name_of(map.incline), map.base.speed);
   for (const auto& [name, value] : inputs_of(settings, map.scenario))
