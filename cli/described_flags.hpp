@@ -20,6 +20,13 @@
 
 namespace soilbin::cli {
 
+/// The value of an enumeration that a flag's text names. Throws InputError that names the flag and the right words.
+template <class E>
+E read_word(const std::string& flag, const std::string& text) {
+  if (const std::optional<E> value = value_named<E>(text)) return *value;
+  throw InputError(flag + ": " + none_of(text, all_words<E>()));
+}
+
 /// "longitudinal_incline" -> "--longitudinal-incline"
 inline std::string flag_of(const std::string& prefix, std::string key) {
   std::ranges::replace(key, '_', '-');
@@ -105,7 +112,7 @@ class DescribedFlags {
       else if constexpr (std::is_same_v<Limits, int>)
         into.*member = read_whole(flag, text, limits);
       else
-        into.*member = read_choice<std::decay_t<decltype(into.*member)>>(flag, text);
+        into.*member = read_word<std::decay_t<decltype(into.*member)>>(flag, text);
     });
   }
 
@@ -117,12 +124,6 @@ class DescribedFlags {
       throw InputError(
           fmt::format("{}: expected a whole number from {} to {}, not '{}'", flag, lowest, largest, clipped(text)));
     return static_cast<int>(*value);
-  }
-  template <class E>
-  static E read_choice(const std::string& flag, const std::string& text) {
-    if (const std::optional<E> value = value_named<E>(text)) return *value;
-    throw InputError(flag + ": '" + text + "' is none of " + listed(all_words<E>()) +
-                     did_you_mean(text, all_words<E>()));
   }
 
   std::string prefix_;

@@ -2,10 +2,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include "cli/batch_flags.hpp"
 #include "cli/commands.hpp"
+#include "cli/described_flags.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
@@ -17,7 +19,6 @@
 #include "compare/failure_map/learned_map.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/atomic_file.hpp"
-#include "scenario/nearest_word.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -44,22 +45,13 @@ compare::Factor range_of(const std::string& flag, const std::string& text, const
   return {name, lower, upper, measure.unit};
 }
 
-/// The value that a flag's text names.
-template <class E>
-E word_given(const std::string& flag, const std::string& text) {
-  if (const auto value = value_named<E>(text)) return *value;
-  const std::vector<std::string> right = all_words<E>();
-  throw InputError(fmt::format("{}: unknown word '{}'{}\n  hint: there are {}", flag, clipped(text),
-                               did_you_mean(text, right), listed(right)));
-}
-
 compare::InclineMap map_of(const FailureMapOptions& asked, const Case& question, const Workplace& place) {
   compare::InclineMap map;
-  map.of = word_given<ModelKind>("--of", asked.of), map.against = word_given<ModelKind>("--against", asked.against);
+  map.of = read_word<ModelKind>("--of", asked.of), map.against = read_word<ModelKind>("--against", asked.against);
   map.scenario = question.scenario;
   map.base = question.study.conditions.front();
   map.base.pass = 1;
-  map.incline = word_given<compare::Incline>("--incline", asked.incline);
+  map.incline = read_word<compare::Incline>("--incline", asked.incline);
   map.factors = {range_of("--load", asked.load, "load", {"N", above_zero}),
                  range_of("--lug-height", asked.lug_height, "lug height", {"mm", zero_or_more}),
                  range_of("--angle", asked.angle, "angle", {"deg", inclines}),
@@ -142,6 +134,9 @@ int failure_map(const FailureMapOptions& asked, const CLI::App& command, const S
   }
   if (!asked.stored && !asked.store.empty())  // what is only read may lie anywhere
     if (const std::string why = why_not_writable(asked.store); !why.empty()) throw InputError("--store: " + why);
+  if (asked.stored && !std::filesystem::exists(asked.store))
+    throw InputError(asked.store.empty() ? "--stored: there is no store\n  hint: --store FILE.json"
+                                         : asked.store + ": no such file\n  hint: without --stored it is begun");
   asked.batch.check(asked.store);
   compare::ExperimentStore store(asked.store, asked.batch.writers());
   tell_unsealed(store, asked.store);

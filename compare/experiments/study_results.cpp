@@ -65,11 +65,10 @@ Doubts doubts_of_runs(const StudyResults& results) {
 
 /// The errors of the grains' answers as told_answer has them, by all runs that there are: the record's that answers,
 /// or the kept one's, or those that were made.
-void tell_errors(StudyResults& results, const StudyGrains& grains) {
-  const std::filesystem::path& kept = grains.keeping.record;
-  const ToldScatter told = grains.recorded                 ? told_scatter(grains.recorded->record.runs)
-                           : std::filesystem::exists(kept) ? told_scatter(read_record(kept).runs)
-                                                           : told_scatter(results.runs);
+void tell_errors(StudyResults& results, const StudyGrains& grains, const std::optional<Record>& kept) {
+  const ToldScatter told = told_scatter(grains.recorded ? grains.recorded->record.runs
+                                        : kept          ? kept->runs
+                                                        : results.runs);
   for (ModelAnswers& model : results.study) {
     if (model.choice.model != ModelKind::dem) continue;
     for (Answer& answer : model.answers) {
@@ -85,10 +84,11 @@ void tell_errors(StudyResults& results, const StudyGrains& grains) {
 }
 
 /// Doubts in the answers, in the record that answered for grains, and in the one that their runs are added to.
-Doubts doubts_of_study(const Case& question, const StudyResults& results, const StudyGrains& grains) {
+Doubts doubts_of_study(const Case& question, const StudyResults& results, const StudyGrains& grains,
+                       const std::optional<Record>& kept) {
   const bool from_record = grains.recorded && asks(question.study, ModelKind::dem);
   Doubts all = doubts(question, results.study, from_record ? step_doubts(grains.recorded->record) : Doubts());
-  if (std::filesystem::exists(grains.keeping.record)) append(all, step_doubts(read_record(grains.keeping.record)));
+  if (kept) append(all, step_doubts(*kept));
   for (const ModelAnswers& model : results.study)
     if (const std::vector<SidePoint> points = points_of(model, results); !points.empty())
       tell_twins(all, points, conditions_of(model));
@@ -188,8 +188,10 @@ StudyResults answer_study(const Case& question, const Case& whole, const StudyGr
     results.coarser = model->coarser();
     return model;
   });
-  tell_errors(results, grains);
-  results.doubts = doubts_of_study(question, results, grains);
+  std::optional<Record> kept;
+  if (std::filesystem::exists(grains.keeping.record)) kept = read_record(grains.keeping.record);
+  tell_errors(results, grains, kept);
+  results.doubts = doubts_of_study(question, results, grains, kept);
   results.of_runs = doubts_of_runs(results);
   return results;
 }

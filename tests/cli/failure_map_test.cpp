@@ -148,7 +148,7 @@ TEST(FailureMapCommand, NamesWhatIsWrong) {
                flags)
         .err;
   };
-  EXPECT_THAT(error("--incline sideways --load 1N..2N --angle 0deg..1deg"), HasSubstr("unknown word 'sideways'"));
+  EXPECT_THAT(error("--incline sideways --load 1N..2N --angle 0deg..1deg"), HasSubstr("'sideways' is none of"));
   EXPECT_THAT(error("--against rft --of rft --load 1N..2N --angle 0deg..1deg"), HasSubstr("a model against itself"));
   EXPECT_THAT(error("--against rft --patch --load 1N..2N --angle 0deg..1deg"), HasSubstr("--patch has no effect"));
   EXPECT_THAT(error("--load 100N..40N --angle 0deg..1deg"), HasSubstr("below the upper"));
@@ -157,8 +157,8 @@ TEST(FailureMapCommand, NamesWhatIsWrong) {
       "failure-map paper-longitudinal --soil paper-sand-virtual --load 1N..2N --lug-height 0mm..1mm --angle 0deg..1deg "
       "--slip 0%..1% "
       "--stored --store no-such.json");
-  EXPECT_EQ(none.status, 1);
-  EXPECT_THAT(none.err, HasSubstr("only 0 of 24 conditions have an answer of both models"));
+  EXPECT_EQ(none.status, 2);
+  EXPECT_THAT(none.err, HasSubstr("no-such.json: no such file"));
 }
 
 TEST(CampaignCommand, RefusesWhatIsNoRecord) {
