@@ -39,7 +39,8 @@ double brixius_number(double cone_index, const TireMeasures& tire, double load);
 ///   gross = 0.88 (1 - e^(-0.1 B_n)) (1 - e^(-7.5 s)) + 0.04,   resistance = 1/B_n + 0.04 + 0.5 s/sqrt(B_n).
 ///
 /// 0.04 is what the tire itself takes to roll: the torque gives it, and it does not reach the drawbar, so it stands in
-/// both and cancels. A public code (MAVS, brixius.cpp) has it in the resistance alone: its net traction is 0.04 less.
+/// both and cancels. A public code (MAVS, brixius.cpp, after Pan et al. 2004) has it in the resistance alone: its net
+/// traction is 0.04 less.
 Ratios brixius(double number, double slip);
 
 /// Turnage's mobility number of sand [-],
@@ -53,10 +54,11 @@ double turnage_number(double gradient, const TireMeasures& tire, double load);
 ///
 ///   gross = X (N_s + 10)/(N_s + 10 + Y),  X = 0.66, Y = 4.71 + 1.72/s,
 ///
-/// as the documentation of MAVS gives it after Mason et al. (2018), J. Terramechanics 79; and at 20 % slip
-/// net = 0.53 - 4.5/(N_s + 3.7), as commonly quoted after Turnage (1984). Resistance is what the two leave at
-/// 20 % slip, and taken as that at every slip (our choice: no source that we could read gives a motion resistance that
-/// fits them). It falls from 0.34 at N_s = 5 to 0.09 at 50.
+/// as the documentation of MAVS gives it (it names Mason et al. 2018, J. Terramechanics 79, whose relation in MAVS's
+/// code is another); and at 20 % slip net = 0.53 - 4.5/(N_s + 3.7), from memory of the literature, after Turnage
+/// (1984). Resistance is what the two leave at 20 % slip, and taken as that at every slip (our choice: no source that
+/// we could read gives a motion resistance that fits them). It falls from 0.34 at N_s = 5 to 0.09 at 50 and rises to
+/// 0.13 on very firm sand.
 Ratios turnage(double number, double slip);
 
 }  // namespace soilbin::cone_index

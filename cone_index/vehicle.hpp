@@ -98,8 +98,8 @@ struct MobilityFactors {
 ///   VCI50 [psi] = 28.23 + 0.43 MI - 92.67/(MI + 3.67),
 ///
 /// MI after FM 5-430-00-1 (1994), chapter 7; VCI1 with its 3.74 and DCF = (0.15 h/delta)^0.25 from Priddy and
-/// Willoughby (2006), J. Terramechanics 43. DCF is 1 where deflection and section height are not both declared. For
-/// vehicles that drive all axles.
+/// Willoughby (2006), J. Terramechanics 43; VCI50 as public codes have it, no primary source read. DCF is 1 where
+/// deflection and section height are not both declared. For vehicles that drive all axles.
 struct VehicleConeIndex {
   MobilityFactors factors;
   double mobility_index = 0.0;
@@ -115,7 +115,8 @@ VehicleConeIndex vehicle_cone_index(const Vehicle& vehicle);
 ///
 ///   MMP = K W/(2 m b^0.85 d^1.15 sqrt(delta/d)) [Pa],
 ///
-/// 2 m the number of tires. After Larminie (1992), J. Terramechanics 29, who put the deflection over the diameter.
+/// 2 m the number of tires. The deflection over the diameter is Larminie's (1992, J. Terramechanics 29; its summary
+/// read, not its formula), the exponents are as commonly quoted after Rowland (1975).
 struct MeanMaximumPressure {
   double value = 0.0;   ///< [Pa]
   double factor = 0.0;  ///< K
@@ -125,8 +126,9 @@ struct MeanMaximumPressure {
 std::optional<MeanMaximumPressure> mean_maximum_pressure(const Vehicle& vehicle);
 
 /// Rowland's K where the deflection stands over the section height, MMP = K W/(2 m b^0.85 d^1.15 sqrt(delta/h)): 3.65
-/// of two axles that are both driven, by axles and driven axles; as commonly quoted after Rowland (1975). Over the
-/// diameter it is K sqrt(h/d). Nothing for a combination that is not in the table.
+/// of two axles that are both driven, by axles and driven axles; as commonly quoted after Rowland (1975); no source
+/// that we could read prints them. Over the diameter it is K sqrt(h/d). Nothing for a combination that is not in the
+/// table.
 std::optional<double> rowlands_factor(int axles, int driven);
 
 /// So many passes over one place.

@@ -29,8 +29,8 @@ Doubts resistive_force_doubts(const Soil& soil) {
 
 namespace {
 
-/// A tire, load and soil beside those of the tests behind the relation. Brixius: after his paper. Turnage: below 5 the
-/// pull at 20 % slip is negative, and tests of the Waterways Experiment Station reach to some 100.
+/// A tire, load and soil beside those of the tests behind the relation. Brixius: as commonly quoted after his paper.
+/// Turnage: below 5 the pull at 20 % slip is negative, and tests of the Waterways Experiment Station reach to some 100.
 Doubts outside_cone_tests(const cone_index::TireMeasures& tire, const cone_index::MobilityNumber& number,
                           const OperatingCondition& at) {
   struct Tested {

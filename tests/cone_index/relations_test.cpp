@@ -8,7 +8,7 @@
 namespace soilbin::cone_index {
 namespace {
 
-/// The tire, load and soil of the unit test of MAVS: 0.02 m of deflection, which is 13 % of the section height.
+/// The default tire of MAVS and the load of its test, with a deflection of 0.02 m (its test has 0.1 m).
 const TireMeasures mavs{.diameter = 0.704, .width = 0.226, .section_height = 0.15, .deflection = 0.02};
 
 TEST(Brixius, MeetsThePublishedNumber) { EXPECT_NEAR(brixius_number(310e3, mavs, 3892), 10.76, 0.005); }
@@ -18,6 +18,11 @@ TEST(Brixius, HasANetTractionOf0198At10PercentSlipAnd004LessWithoutTheRollingTer
   EXPECT_NEAR(brixius(number, 0.1).net(), 0.1978, 1e-4);
   const double mavs_net[] = {0.1578, 0.2871, 0.3401};  // at 10, 20, 30 % slip, with the resistance's 0.04 alone
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(brixius(number, 0.1 * (i + 1)).net(), mavs_net[i] + 0.04, 1e-4) << i;
+  TireMeasures flat = mavs;
+  flat.deflection = 0.1;
+  EXPECT_NEAR(brixius_number(310e3, flat, 3892), 27.9741, 1e-3);
+  EXPECT_NEAR(brixius(27.9741, 0.1).gross, 0.476009, 1e-6);
+  EXPECT_NEAR(brixius(27.9741, 0.1).resistance, 0.085201, 1e-6);
 }
 
 TEST(Brixius, OfAFreelyRollingWheelOnFirmGroundLeavesWhatTheTireTakes) {

@@ -96,6 +96,7 @@ TEST(Traction, IsBoundedByTheSurfacesFriction) {
 
 TEST(EstimatedXiN, IsThePublishedPolynomial) {
   EXPECT_NEAR(estimated_xi_n(1500, 0.5, 9.81), 1500 * 9.81 * (894 * 0.125 - 386 * 0.25 + 89 * 0.5), 1e-6);
+  EXPECT_NEAR(estimated_xi_n(1310, 0.21, 9.81), 127'826, 1);  // the sand of Agarwal's verification
   EXPECT_EQ(estimated_xi_n(1500, 0.0, 9.81), 0.0);
 }
 
