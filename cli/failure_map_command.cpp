@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "cli/batch_flags.hpp"
 #include "cli/commands.hpp"
@@ -45,6 +46,59 @@ compare::Factor range_of(const std::string& flag, const std::string& text, const
   return {name, lower, upper, measure.unit};
 }
 
+/// Flags that a store tells for who asks its map again: what its runs follow from, and how they were chosen.
+compare::ExperimentStore::Asked flags_of_runs(const CLI::App& command, const std::string& study) {
+  const std::set<std::string> of_runs = {"--soil",  "--incline",  "--load",   "--lug-height", "--angle", "--slip",
+                                         "--first", "--boundary", "--rounds", "--check",      "--seed"};
+  compare::ExperimentStore::Asked flags{{"study", study}};
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    const bool of_grains = option->get_group() == grains_heading && name != "--threads" && name != "--dry-run";
+    if (option->count() > 0 && (of_grains || of_runs.contains(name))) flags[name] = option->results().front();
+  }
+  return flags;
+}
+
+/// The library's store of a study's map; `incline`: empty for any. Throws InputError where there is none.
+std::string library_store(const Workplace& place, const std::string& study, const std::string& incline) {
+  for (const std::filesystem::path& folder : place.folders) {
+    if (!std::filesystem::is_directory(folder / "failure_maps")) continue;
+    std::set<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "failure_maps"))
+      if (entry.path().extension() == ".json") files.insert(entry.path());
+    for (const std::filesystem::path& file : files) {
+      const compare::ExperimentStore store(file);
+      const auto is = [&](const char* flag, const std::string& text) {
+        const auto told = store.asked().find(flag);
+        return told != store.asked().end() && told->second == text;
+      };
+      if (is("study", study) && (incline.empty() || is("--incline", incline))) return file.string();
+    }
+  }
+  throw InputError(fmt::format("--stored: the library has no map of '{}'\n  hint: --store FILE.json", clipped(study)));
+}
+
+/// Sets the flags that were not given to what the store tells, as if they had been; those of grains where they are
+/// asked.
+void take_flags(CLI::App& command, const compare::ExperimentStore& store, bool grains) {
+  for (const auto& [name, text] : store.asked())
+    if (CLI::Option* option = command.get_option_no_throw(name);
+        option != nullptr && option->count() == 0 && (grains || option->get_group() != grains_heading)) {
+      option->add_result(text);
+      option->run_callback();
+    }
+}
+
+/// Effects of the analytic wheel: those of --effect, or, without one, of the study's first analytic model.
+std::vector<EffectChoice> effects_of(const FailureMapOptions& asked, const Case& question, const Workplace& place) {
+  std::vector<EffectChoice> effects;
+  if (asked.effects == std::vector<std::string>{"none"}) return effects;
+  for (const std::string& text : asked.effects) add_effect(effects, text, place.effects, question.scenario.soil);
+  if (!asked.effects.empty()) return effects;
+  const auto analytic = std::ranges::find(question.study.models, ModelKind::bekker_wong, &ModelChoice::model);
+  return analytic == question.study.models.end() ? effects : analytic->effects;
+}
+
 compare::InclineMap map_of(const FailureMapOptions& asked, const Case& question, const Workplace& place) {
   compare::InclineMap map;
   map.of = read_word<ModelKind>("--of", asked.of), map.against = read_word<ModelKind>("--against", asked.against);
@@ -57,8 +111,7 @@ compare::InclineMap map_of(const FailureMapOptions& asked, const Case& question,
                  range_of("--angle", asked.angle, "angle", {"deg", inclines}),
                  range_of("--slip", asked.slip, "slip", {"%", {.lower = -1.0, .upper = 0.99}})};
   if (map.factors[compare::map_load].upper >= 1000) map.factors[compare::map_load].unit = "kN";
-  for (const std::string& text : asked.effects)
-    add_effect(map.scenario.effects, text, place.effects, question.scenario.soil);
+  map.scenario.effects = effects_of(asked, question, place);
   return map;
 }
 
@@ -113,11 +166,24 @@ int tell(const compare::FailureMapResult& result, const compare::MapGrains& grai
   return publish(compare::report_on(result, about), asked.outputs, doubts_of(result, grains), session).status(done);
 }
 
-int failure_map(const FailureMapOptions& asked, const CLI::App& command, const Session& session) {
+int failure_map(FailureMapOptions& asked, CLI::App& command, const Session& session) {
   Case question = find_study(session.place, asked.study);
+  const bool grains_asked = asked.of == "dem" || asked.against == "dem";
+  read_word<compare::Incline>("--incline", asked.incline);  // refused before a map of that incline is looked for
+  if (asked.stored) {
+    if (asked.store.empty())
+      asked.store = library_store(session.place, asked.study, command.count("--incline") > 0 ? asked.incline : "");
+    if (!std::filesystem::exists(asked.store))
+      throw InputError(asked.store + ": no such file\n  hint: without --stored it is begun");
+    take_flags(command, compare::ExperimentStore(asked.store), grains_asked);
+  }
+  for (const auto& [flag, text] : {std::pair("--load", &asked.load), std::pair("--lug-height", &asked.lug_height),
+                                   std::pair("--angle", &asked.angle), std::pair("--slip", &asked.slip)})
+    if (text->empty())
+      throw InputError(
+          fmt::format("{} is missing: LOW..HIGH\n  hint: --stored takes it from a store that tells it", flag));
   const AnalyticSoil values(asked.soil, session.place.library, question.scenario.soil);
   const compare::InclineMap map = map_of(asked, question, session.place);
-  const bool grains_asked = map.of == ModelKind::dem || map.against == ModelKind::dem;
   check_flags_of_grains(asked.soil_bin, command, question, {.asked = grains_asked, .hint = "--against dem"});
   const compare::MapLearning how{.runs = {.first = asked.first,
                                           .at_boundary = asked.at_boundary,
@@ -134,12 +200,11 @@ int failure_map(const FailureMapOptions& asked, const CLI::App& command, const S
   }
   if (!asked.stored && !asked.store.empty())  // what is only read may lie anywhere
     if (const std::string why = why_not_writable(asked.store); !why.empty()) throw InputError("--store: " + why);
-  if (asked.stored && !std::filesystem::exists(asked.store))
-    throw InputError(asked.store.empty() ? "--stored: there is no store\n  hint: --store FILE.json"
-                                         : asked.store + ": no such file\n  hint: without --stored it is begun");
   asked.batch.check(asked.store);
   compare::ExperimentStore store(asked.store, asked.batch.writers());
   tell_unsealed(store, asked.store);
+  if (!asked.stored && !asked.dry_run && !asked.batch.asks() && !asked.batch.answers())
+    store.tell_asked(flags_of_runs(command, asked.study));
   asked.batch.learn(store);
   const dem::DemSettings settings = settings_of(asked.soil_bin);
   const compare::RunKeeping keeping{.version = SOILBIN_VERSION, .source = source_state()};
@@ -180,10 +245,10 @@ void add_failure_map(CLI::App& app, Session& session) {
   add_value(*command, "--against", asked->against, "MODEL",
             "the model that it is judged by: dem (default), or another quick one, without grains");
   add_value(*command, "--incline", asked->incline, "KIND", "longitudinal (default), transverse or yaw");
-  add_value(*command, "--load", asked->load, "LOW..HIGH", "range of loads")->required();
-  add_value(*command, "--lug-height", asked->lug_height, "LOW..HIGH", "range of lug heights")->required();
-  add_value(*command, "--angle", asked->angle, "LOW..HIGH", "range of the incline or the yaw")->required();
-  add_value(*command, "--slip", asked->slip, "LOW..HIGH", "range of slips")->required();
+  add_value(*command, "--load", asked->load, "LOW..HIGH", "range of loads");
+  add_value(*command, "--lug-height", asked->lug_height, "LOW..HIGH", "range of lug heights");
+  add_value(*command, "--angle", asked->angle, "LOW..HIGH", "range of the incline or the yaw");
+  add_value(*command, "--slip", asked->slip, "LOW..HIGH", "range of slips");
   add_value(*command, "--first", asked->first, "N", "conditions that fill the ranges evenly; 24")
       ->check(whole_number(6, most_conditions_of_map));
   add_value(*command, "--boundary", asked->at_boundary, "N",
@@ -197,10 +262,13 @@ void add_failure_map(CLI::App& app, Session& session) {
   add_value(*command, "--tolerance", asked->tolerance, "SHARE",
             "share of the load beyond which the models count as different; 10 %");
   add_value(*command, "--effect", asked->effects, "ID[:FORM][,PARAMETER=VALUE...]",
-            "effect of the analytic model; repeatable")
+            "effect of the analytic model; repeatable; without one those of the study's, none: the base model")
       ->allow_extra_args(false);
   add_value(*command, "--store", asked->store, "FILE.json", "keep each run in this file, and go on with what is there");
-  command->add_flag("--stored", asked->stored, "answer from the store alone, without running");
+  command->add_flag(
+      "--stored", asked->stored,
+      "answer from the store alone, without running; ranges and flags of the grains are the store's where "
+      "they are not given. Without --store: from the library's map of the study");
   asked->batch.add_to(*command);
   add_value(*command, "--seed", asked->seed, "N", "seed of the design; 1");
   command->add_flag("--show-rows", asked->rows, "print every condition run");
@@ -215,7 +283,8 @@ void add_failure_map(CLI::App& app, Session& session) {
   // A map keeps its runs in a store, each in one packing.
   for (const char* other : {"--record", "--recorded", "--packings"}) command->remove_option(command->get_option(other));
   command->footer(
-      "Example: soilbin failure-map paper-longitudinal --soil paper-sand-virtual --incline longitudinal --load "
+      "Example: soilbin failure-map heavy-lugged-incline --stored --report map.html\n"
+      "         soilbin failure-map paper-longitudinal --soil paper-sand-virtual --incline longitudinal --load "
       "2kN..8kN\n"
       "         --lug-height 0mm..30mm --angle 0deg..15deg --slip 5%..50% --store map.json --report map.html --check "
       "5");

@@ -110,18 +110,26 @@ std::optional<Experiment> ExperimentStore::put(Tests& tests, const std::string& 
 /// Takes the experiments of the file and its journal in place of those known.
 void ExperimentStore::read() {
   const std::vector<SourceText> documents = kept_documents(file_);
-  tests_ = parsed(documents.front());
+  tests_ = parsed(documents.front(), asked_);
   for (std::size_t k = 1; k < documents.size(); ++k)
-    for (const auto& [key, experiments] : parsed(documents[k]))
+    for (const auto& [key, experiments] : parsed(documents[k], asked_))
       for (const Experiment& one : experiments) put(tests_, key, one);
 }
 
-ExperimentStore::Tests ExperimentStore::parsed(const SourceText& source) {
+void ExperimentStore::tell_asked(Asked asked) {
+  if (!asked_.empty()) return;
+  asked_ = std::move(asked);
+  if (size() > 0) kept_.add([] {}, "");
+}
+
+ExperimentStore::Tests ExperimentStore::parsed(const SourceText& source, Asked& asked) {
   const std::string other = "name another file, or move this one away";
   const Json document = parse_json(source, other);
   if (!document.is_object() || document.value("format", "") != format)
     throw InputError({source.file, 0, 0}, fmt::format("not a store of experiments ({})", format), "", other);
   Tests tests;
+  if (document.contains("asked"))
+    read_json_at(source.file + ": asked", [&] { asked = document["asked"].get<Asked>(); });
   const std::string file = source.file + ": tests";
   for (const Json& test : read_json_at(file, [&] { return document.at("tests"); })) {
     const std::string place = fmt::format("{}[{}]", file, tests.size());
@@ -157,7 +165,7 @@ std::optional<Experiment> ExperimentStore::find(const VirtualTest& test, const E
 void ExperimentStore::add(const VirtualTest& test, const Experiment& experiment) {
   Tests alone;
   put(alone, key_of(test), experiment);
-  kept_.add([&] { put(tests_, key_of(test), experiment); }, text_of(alone));
+  kept_.add([&] { put(tests_, key_of(test), experiment); }, text_of(alone, {}));
 }
 
 void ExperimentStore::merge(const std::filesystem::path& other) {
@@ -204,14 +212,17 @@ std::size_t ExperimentStore::size() const {
   return sum;
 }
 
-std::string ExperimentStore::text_of(const Tests& all) {
+std::string ExperimentStore::text_of(const Tests& all, const Asked& asked) {
   Json tests = Json::array();
   for (const auto& [key, experiments] : all) {
     Json& one = tests.emplace_back(sealed_question(key));
     one["experiments"] = Json::array();
     for (const Experiment& experiment : experiments) one["experiments"].push_back(json_of(experiment));
   }
-  return json_text({{"format", format}, {"tests", tests}});
+  Json document{{"format", format}};
+  if (!asked.empty()) document["asked"] = asked;
+  document["tests"] = std::move(tests);
+  return json_text(document);
 }
 
 std::optional<Experiment> obtain(const VirtualTest& test, const ExperimentSpec& spec, ExperimentStore& store) {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -83,22 +84,30 @@ class ExperimentStore {
   /// have the same experiment with different results, and for what is no store.
   void merge(const std::filesystem::path& other);
   std::size_t size() const;
+  /// The flags of the command that began it, by their names, so that its answers can be asked for again without them;
+  /// empty where it does not tell.
+  using Asked = std::map<std::string, std::string>;
+  const Asked& asked() const { return asked_; }
+  /// Tells them, in a file that is yet to be begun with its first experiment; those that the file tells stay. Throws
+  /// std::runtime_error where the file can't be written.
+  void tell_asked(Asked asked);
   /// Number of this test's experiments that an engine of other bits made.
   std::size_t of_other_engines(const VirtualTest& test) const;
   /// Number of experiments that no seal vouches for.
   std::size_t unsealed() const;
   /// The file's text.
-  std::string text() const { return text_of(tests_); }
+  std::string text() const { return text_of(tests_, asked_); }
 
  private:
   using Tests = std::vector<std::pair<std::string, std::vector<Experiment>>>;
-  static Tests parsed(const SourceText& source);
-  static std::string text_of(const Tests& tests);
+  static Tests parsed(const SourceText& source, Asked& asked);
+  static std::string text_of(const Tests& tests, const Asked& asked);
   /// Puts an experiment in place of the one of the same spec; gives that.
   static std::optional<Experiment> put(Tests& tests, const std::string& key, Experiment experiment);
   void read();
 
   std::filesystem::path file_;
+  Asked asked_;
   Tests tests_;    ///< by their keys, in the order in which they came
   KeptFile kept_;  ///< last: goes first, and writes the tests
 };

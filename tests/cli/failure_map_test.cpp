@@ -80,14 +80,9 @@ TEST(SlowFailureMapCommand, TellsWhereThePapersTireParts) {
   }
 }
 
-/// The heavy tire's map from the library, of a model with these flags.
+/// The heavy tire's map from the library, of a model with these flags: ranges and grains are the store's.
 nlohmann::json heavy_map(const std::string& model) {
-  const Outcome r = soilbin(
-      "failure-map heavy-lugged-incline --load 10kN..40kN --lug-height 0mm..45mm "
-      "--angle 0deg..20deg --slip 5%..50% --boundary 0 --rounds 0 --coarser-twin --patch --graded 2 --bed-length 1m "
-      "--behind 0.6m --ahead 1.2m --travel 2.4m --settling-friction 0 --json --stored --store '" SOILBIN_SOURCE_DIR
-      "/cases/failure_maps/heavy-longitudinal.json' " +
-      model);
+  const Outcome r = soilbin("failure-map heavy-lugged-incline --stored --json " + model);
   EXPECT_EQ(r.status, 0) << r.err;
   return r.json();
 }
@@ -107,16 +102,47 @@ std::pair<double, double> mean_and_rms(const nlohmann::json& map) {
 // docs/lab/failure-maps.md on the heavy lugged tire: the analytic wheel pulls too much, decided; the effects that it
 // lacks take half of that; resistive force theory, from density and friction angle alone, is near.
 TEST(SlowFailureMapCommand, DecidesAboutAHeavyLuggedTire) {
-  const nlohmann::json analytic = heavy_map("--effect lug_thrust:passive_blade");
+  const nlohmann::json analytic = heavy_map("");
+  EXPECT_EQ(analytic["rows"], heavy_map("--effect lug_thrust:passive_blade")["rows"]) << "as the study has it";
   EXPECT_GT(mean_and_rms(analytic).first, 0.20);
   EXPECT_GT(analytic["shares"]["differ"].get<double>(), 0.8);
   EXPECT_EQ(analytic["shares"]["agree"].get<double>(), 0.0);
   EXPECT_LT(mean_and_rms(heavy_map("--effect slip_sinkage --effect bulldozing --effect interface_limit,a=0.18")).second,
-            0.6 * mean_and_rms(heavy_map("")).second);
+            0.6 * mean_and_rms(heavy_map("--effect none")).second);
   const nlohmann::json rft = heavy_map("--of rft");
   EXPECT_LT(mean_and_rms(rft).second, 0.08);
   EXPECT_GT(rft["shares"]["agree"].get<double>(), 0.2);
   EXPECT_LT(rft["shares"]["differ"].get<double>(), 0.05);
+}
+
+TEST(SlowFailureMapCommand, AsksTheLibrarysMapAgainWithoutItsFlags) {
+  const std::string ranges =
+      "--load 10kN..40kN --lug-height 0mm..45mm --angle 0deg..20deg --slip 5%..50% --boundary 0 --rounds 0 "
+      "--coarser-twin --patch --graded 2 --bed-length 1m --behind 0.6m --ahead 1.2m --travel 2.4m --settling-friction "
+      "0 "
+      "--store '" SOILBIN_SOURCE_DIR "/cases/failure_maps/heavy-longitudinal.json' ";
+  EXPECT_EQ(heavy_map("--of rft"), heavy_map("--of rft " + ranges));
+}
+
+TEST(SlowFailureMapCommand, TellsItsFlagsToItsStore) {
+  const Scratch scratch;
+  const fs::path store = scratch / "store.json";
+  nlohmann::ordered_json known =
+      nlohmann::ordered_json::parse(text_of(SOILBIN_SOURCE_DIR "/cases/failure_maps/paper-longitudinal.json"));
+  known.erase("asked");
+  std::ofstream(store) << known;
+  const Outcome r = soilbin(
+      "failure-map paper-longitudinal --soil paper-sand-virtual --load 2kN..8kN --lug-height 0mm..30mm --angle "
+      "0deg..15deg --slip 5%..50% --first 20 --boundary 0 --rounds 0 --settling-friction 0 --threads 1 --of rft "
+      "--store '" +
+      store.string() + "'");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto asked = nlohmann::json::parse(text_of(store))["asked"];
+  EXPECT_EQ(asked["study"], "paper-longitudinal");
+  EXPECT_EQ(asked["--load"], "2kN..8kN");
+  EXPECT_EQ(asked["--settling-friction"], "0");
+  EXPECT_FALSE(asked.contains("--of")) << "any model may be judged by the same runs";
+  EXPECT_FALSE(asked.contains("--threads"));
 }
 
 TEST(FailureMapCommand, ADryRunListsTheRunsThatComeNext) {
@@ -159,6 +185,8 @@ TEST(FailureMapCommand, NamesWhatIsWrong) {
       "--stored --store no-such.json");
   EXPECT_EQ(none.status, 2);
   EXPECT_THAT(none.err, HasSubstr("no-such.json: no such file"));
+  EXPECT_THAT(soilbin("failure-map paper-longitudinal --load 1N..2N").err, HasSubstr("--lug-height is missing"));
+  EXPECT_THAT(soilbin("failure-map rover-slip --stored").err, HasSubstr("the library has no map of 'rover-slip'"));
 }
 
 TEST(CampaignCommand, RefusesWhatIsNoRecord) {

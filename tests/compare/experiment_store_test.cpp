@@ -197,6 +197,20 @@ TEST(ExperimentStores, WithoutSealsTheyAreReadAndCounted) {
   EXPECT_EQ(ExperimentStore(folder / "old.json").unsealed(), 1U) << "writing it again vouches for nothing";
 }
 
+TEST(ExperimentStores, TellTheFlagsOfTheCommandThatBeganThem) {
+  const Folder folder;
+  {
+    ExperimentStore store(folder / "asked.json");
+    store.tell_asked({{"--load", "2kN..8kN"}});
+    EXPECT_FALSE(fs::exists(folder / "asked.json")) << "nothing is kept yet";
+    store.add(board_test(), made_experiment(0.4));
+  }
+  ExperimentStore again(folder / "asked.json");
+  again.tell_asked({{"--load", "1kN..2kN"}});
+  EXPECT_EQ(again.asked().at("--load"), "2kN..8kN");
+  EXPECT_EQ(again.size(), 1U);
+}
+
 // As soilbins of before wrote them.
 TEST(ExperimentStores, ThoseOfTheLibraryAreWrittenBackAsTheyAre) {
   int files = 0;
