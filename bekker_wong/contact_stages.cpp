@@ -85,6 +85,9 @@ struct Segment {
   Crowd crowd;
 };
 
+/// Distances from theta_2 to those from theta_1 at which the pressure law sees nodes behind theta_m.
+double mirror_ratio(const ContactAngles& a) { return (a.entry - a.max_stress) / (a.max_stress - a.exit); }
+
 /// Distances from entry, weights, and into `depth` the distance from entry at which the pressure law looks: the node's
 /// own in front, its mirror angle's behind theta_m.
 void add_segment(ContactPatch& p, const Segment& segment, bool front, const Outline& outline,
@@ -92,7 +95,7 @@ void add_segment(ContactPatch& p, const Segment& segment, bool front, const Outl
   const CrowdedRule& rule = crowded_rule(layout, segment.crowd);
   const double length = segment.high - segment.low;
   const double before = p.angles.entry - segment.high, after = segment.low - p.angles.exit;
-  const double mirror = front ? 0.0 : (p.angles.entry - p.angles.max_stress) / (p.angles.max_stress - p.angles.exit);
+  const double mirror = front ? 0.0 : mirror_ratio(p.angles);
   double *const x = &p.since_entry[p.count], *const seen = &p.depth[p.count], *const arc = &p.arc[p.count];
   for (int k = 0; k < layout.per_segment; ++k) {
     const auto q = static_cast<std::size_t>(k);
@@ -216,6 +219,24 @@ void fill_geometry(ContactPatch& patch, const ContactAngles& angles, const Outli
   const int first_rear = patch.count;
   lay(angles.max_stress, angles.exit, layout.crowd_at_crest ? at_both : at_end, false);
   fill_trigonometry(patch, outline, first_rear);
+}
+
+void fill_geometry(ContactPatch& patch, const ContactAngles& angles, const Outline& outline,
+                   std::span<const double> since_entry) {
+  patch.count = static_cast<int>(since_entry.size());
+  patch.angles = angles;
+  patch.deflection = 0.0;
+  const double mirror = angles.max_stress > angles.exit ? mirror_ratio(angles) : 0.0;
+  int front = 0;
+  for (std::size_t i = 0; i < since_entry.size(); ++i) {
+    const double x = since_entry[i], theta = angles.entry - x;
+    const bool rear = theta < angles.max_stress;
+    front += rear ? 0 : 1;
+    patch.since_entry[i] = x;
+    patch.arc[i] = outline.radius;
+    patch.depth[i] = rear ? mirror * std::max(0.0, theta - angles.exit) : x;
+  }
+  fill_trigonometry(patch, outline, front);
 }
 
 void fill_pressure(ContactPatch& p, const SoilValues& soil, const Outline& outline) {

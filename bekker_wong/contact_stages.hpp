@@ -2,6 +2,8 @@
 // (docs/reference/conventions.md).
 #pragma once
 
+#include <span>
+
 #include "bekker_wong/contact_patch.hpp"
 #include "bekker_wong/kinematics.hpp"
 
@@ -32,6 +34,9 @@ NodeLayout coarse(const NodeLayout& layout);
 /// sign; crowded toward the ends where the pressure law's z^n is singular (theta_1, theta_2).
 void fill_geometry(ContactPatch& patch, const ContactAngles& angles, const Outline& outline, const Kinematics& motion,
                    const NodeLayout& layout);
+/// Lays nodes at theta_1 - since_entry [rad], which grow from the entry to the exit; the arcs are lengths a radian [m].
+void fill_geometry(ContactPatch& patch, const ContactAngles& angles, const Outline& outline,
+                   std::span<const double> since_entry);
 
 /// sigma = (k_c/b + k_phi) depth^n (Bekker 1969; Wong and Reece 1967).
 void fill_pressure(ContactPatch& patch, const SoilValues& soil, const Outline& outline);

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "bekker_wong/balance_search.hpp"
@@ -141,9 +142,20 @@ double share_of(double log_share) {
 
 constexpr std::array stress_members = {&ContactPatch::sigma, &ContactPatch::tau_x, &ContactPatch::tau_y};
 
+std::string force(double newton) {
+  return std::abs(newton) < 1e4 ? fmt::format("{:.4g} N", newton) : fmt::format("{:.4g} kN", newton / 1000);
+}
+
 double deepest_angle() { return std::acos(1.0 - max_sinkage_share); }
 
 }  // namespace
+
+NoSolution crushed_tire(double carried, double load) {
+  return NoSolution(fmt::format(
+      "the tire is crushed before the soil gives way: with its inflation and carcass pressure it carries at most {} "
+      "of {}. Raise the inflation pressure or lower the load",
+      force(carried), force(load)));
+}
 
 WheelForces RollingWheel::integrate(const Prepared& p, const ContactPatch& patch) const {
   const auto sum = [&](auto term) { return sum_over(patch, [&](std::size_t i) { return patch.arc[i] * term(i); }); };
@@ -275,14 +287,7 @@ void RollingWheel::refuse(const Prepared& p, double highest, ContactPatch& patch
   if (!std::isfinite(carried))
     throw NoSolution("the wheel or its load is too large or too small for the model's numbers");
   const bool crushed = patch.deflection > sinkage_of(patch, p.outline);
-  const auto force = [](double newton) {
-    return std::abs(newton) < 1e4 ? fmt::format("{:.4g} N", newton) : fmt::format("{:.4g} kN", newton / 1000);
-  };
-  if (crushed)
-    throw NoSolution(fmt::format(
-        "the tire is crushed before the soil gives way: with its inflation and carcass pressure it carries at most {} "
-        "of {}. Raise the inflation pressure or lower the load",
-        force(std::max(most, carried)), force(load)));
+  if (crushed) throw crushed_tire(std::max(most, carried), load);
   throw NoSolution(fmt::format(
       "the wheel would sink deeper than {} of its radius: there the soil carries {} of {}{}", max_sinkage_share,
       force(carried), force(load),
@@ -405,6 +410,13 @@ WheelForces RollingWheel::hold(const OperatingCondition& at, double theta_1, con
   p.layout = layout_at(p, theta_1);
   fill_patch(p, theta_1, patch, displacement);
   return integrate(p, patch);
+}
+
+void RollingWheel::tread(const OperatingCondition& at, double theta_1, std::span<const double> since_entry,
+                         ContactPatch& patch) const {
+  const Prepared p = prepare(at);
+  fill_geometry(patch, angles(p, theta_1), p.outline, since_entry);
+  for (const auto& effect : effects_) effect->geometry(patch, p.outline, p.around);
 }
 
 Outline RollingWheel::outline(const OperatingCondition& at) const { return prepare(at).outline; }

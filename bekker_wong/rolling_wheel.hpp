@@ -8,9 +8,11 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "bekker_wong/contact_patch.hpp"
 #include "bekker_wong/effect.hpp"
+#include "scenario/errors.hpp"
 #include "scenario/scenario.hpp"
 
 namespace soilbin::bekker_wong {
@@ -53,6 +55,9 @@ struct NearBalance {
   double steepness = 0.0;  ///< d ln(load carried)/d ln(theta_1) there [-]; 0: not known
 };
 
+/// Why a tire that flattens carries less than its load [N], whatever the soil.
+NoSolution crushed_tire(double carried, double load);
+
 /// Deepest sinkage at which the model balances a load, as a share of the radius.
 inline constexpr double max_sinkage_share = 0.9;
 /// Deepest sinkage to which an effect may settle the wheel: the contact then reaches above the axle.
@@ -90,6 +95,11 @@ class RollingWheel {
   /// filled.
   WheelForces hold(const OperatingCondition& at, double theta_1, const DisplacementFill& displacement,
                    ContactPatch& patch) const;
+
+  /// The tread at theta_1 - since_entry [rad], which grow from the entry to the exit: of the patch the geometry alone,
+  /// with arcs a radian [m] and, of a carcass that flattens, the belt's travel over r in since_entry.
+  void tread(const OperatingCondition& at, double theta_1, std::span<const double> since_entry,
+             ContactPatch& patch) const;
 
   /// Outline after the effects, and the contact's angles at theta_1 [rad].
   Outline outline(const OperatingCondition& at) const;

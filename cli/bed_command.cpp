@@ -33,7 +33,7 @@ std::optional<dem::DensityLimits> limits_of(dem::DemSettings settings, const Sce
 void settle(dem::DemSettings settings, const Scenario& scenario, std::uint64_t packing,
             const std::optional<dem::DensityLimits>& limits) {
   settings.packing = packing;
-  const std::string name = fmt::format("bed of packing {}", packing);
+  const std::string name = fmt::format("bed sample {}", packing);
   settings.how.progress = [&](const dem::Progress& progress) { show_progress_of(name, progress); };
   const dem::DemModel model(settings);
   const dem::BedRecipe recipe = model.recipe(scenario);

@@ -40,7 +40,8 @@ int bevameter(const BevameterOptions& options, const Session& session) {
   const compare::BevameterFit fit = compare::fit_bevameter(measured.plates, measured.shear);
   clear_progress_line();
   const std::string source = fmt::format(
-      "virtual bevameter on the grains of {}: {} round plates, ring with grousers, {} packings, settling friction {}",
+      "virtual bevameter on the grains of {}: {} round plates, ring with grousers, {} bed samples, settling friction "
+      "{}",
       soil.name, asked.plates.diameters.size(), options.packings, number(asked.specimen.settling_friction));
   Outputs outputs = publish(compare::report_on(fit, measured, soil, options.packings), options.outputs, {}, session);
   outputs.file(options.output, [&] { return write_soil(with_bevameter(soil, fit, measured.density, source)); });

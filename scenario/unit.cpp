@@ -235,7 +235,8 @@ class UnitParser {
     return product;
   }
 
-  /// '^2', '**2', '^-2', '^n', '^(n+1)', '^{n+1}', '^-(n+2)', superscripts, or nothing (1).
+  /// '^2', '**2', '^-2', '^n', '^(n+1)', '^{n+1}', '^-(n+2)', superscripts, a digit of 2 or more alone as in 'kg/m3',
+  /// or nothing (1).
   Exponent exponent() {
     if (const std::string raised = superscripts(); !raised.empty()) {
       UnitParser inside(raised, n_, meant_);
@@ -243,6 +244,7 @@ class UnitParser {
       if (inside.at_ < raised.size()) refuse();
       return found;
     }
+    if (const double digit = lone_digit(); digit > 0.0) return {digit, 0.0};
     if (!eat("^") && !eat("**")) return {1.0, 0.0};
     const double sign = eat("-") ? -1.0 : 1.0;
     if (eat("n")) return {0.0, sign};
@@ -254,6 +256,15 @@ class UnitParser {
     const Exponent found = sum();
     if (!eat(close)) refuse();
     return {sign * found.constant, sign * found.per_n};
+  }
+
+  /// The digit of 2 or more that starts here with no other number behind it; else 0.
+  double lone_digit() {
+    const auto is_digit = [&](std::size_t at, char least) {
+      return at < text_.size() && text_[at] >= least && text_[at] <= '9';
+    };
+    if (!is_digit(at_, '2') || is_digit(at_ + 1, '0') || (at_ + 1 < text_.size() && text_[at_ + 1] == '.')) return 0.0;
+    return text_[at_++] - '0';
   }
 
   Exponent sum() {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bekker_wong/gsl.hpp"
@@ -47,16 +48,57 @@ double entry_angle(double z, double radius) {
   return 2 * std::asin(std::sqrt(std::clamp(z / (2 * radius), 0.0, deepest / 2)));
 }
 
+/// dS/dd of a tread S(d) whose normal has this sine and cosine where the circle has theta.
+double give_at(double theta, double sine, double cosine) {
+  const double circle = std::sin(theta);
+  return circle == 0.0 ? 1.0 : sine * std::cos(theta) / (cosine * circle);
+}
+
+bool flattens(const RollingWheel& wheel, const OperatingCondition& at) {
+  ContactPatch patch;
+  wheel.tread(at, entry_angle(deepest * wheel.tire().radius, wheel.tire().radius), {}, patch);
+  return patch.deflection > 0.0;
+}
+
 }  // namespace
+
+struct DrivenWheel::Tread {
+  std::vector<double> travel;                               ///< of the belt since the entry, over r [rad]
+  std::vector<double> stretch, normal_sine, normal_cosine;  ///< arc length over the circle's; the normal's angle
+  std::vector<double> give;                                 ///< how fast it goes down, over the circle's speed
+};
+
+/// The belt's travel has corners where a carcass flattens, and j = R travel - the way over the ground has them too:
+/// differences and cubics are taken of the rest. A circle's travel has none.
+struct DrivenWheel::Cornered {
+  std::array<double, 2> shares = {0.0, 0.0};  ///< of the travel in j along the wheel and across it [m]
+  std::vector<double> rest;
+
+  /// rolling: 0 of a wheel at rest, under which j has no corners, 1 of one that rolls.
+  Cornered(const OnSoil& on, const Tread& rim, std::span<const double> j, double rolling) : rest(j.begin(), j.end()) {
+    if (!on.flexes) return;
+    const std::size_t n = rim.travel.size();
+    shares[0] = std::clamp(rolling, 0.0, 1.0) * on.outline.shear_radius;
+    if (j.size() > n) shares[1] = j.back() / rim.travel.back();
+    for (std::size_t k = 0; k < rest.size(); ++k) rest[k] -= shares[k / n] * rim.travel[k % n];
+  }
+  double share(int across) const { return shares[static_cast<std::size_t>(across)]; }
+};
+
+struct DrivenWheel::Contact {
+  Span span;
+  Tread tread;
+  double slip = 0.0;
+};
 
 struct DrivenWheel::Push {
   double forward = 0.0, left = 0.0, upward = 0.0, torque = 0.0;
-  double compaction = 0.0, shear = 0.0, added = 0.0;
+  double compaction = 0.0, shear = 0.0, added = 0.0, carcass = 0.0, deflection = 0.0;
 
   /// What the contact gives where the share `s` of it lies on the other soil.
   void blend(const Push& other, double s) {
-    for (auto member :
-         {&Push::forward, &Push::left, &Push::upward, &Push::torque, &Push::compaction, &Push::shear, &Push::added})
+    for (auto member : {&Push::forward, &Push::left, &Push::upward, &Push::torque, &Push::compaction, &Push::shear,
+                        &Push::added, &Push::carcass, &Push::deflection})
       this->*member += s * (other.*member - this->*member);
   }
 };
@@ -83,7 +125,8 @@ DrivenWheel::DrivenWheel(const Scenario& scenario, const Drive& drive, const Dri
   for (const SoilValues& soil : soils) {
     RollingWheel wheel(tire_, soil, effects, scenario.bin);
     const Outline outline = wheel.outline(at);
-    soils_.push_back({std::move(wheel), outline});
+    const bool flexes = flattens(wheel, at);
+    soils_.push_back({std::move(wheel), outline, flexes});
   }
   std::vector<double> state(state_size(), 0.0);
   const double z = held_depth(state), entry = entry_angle(z, tire_.radius);
@@ -130,9 +173,10 @@ std::span<const double> DrivenWheel::line(std::span<const double> nodes, int acr
   return nodes.subspan(static_cast<std::size_t>(across) * n, n);
 }
 
-DrivenWheel::Span DrivenWheel::contact_span(const OnSoil& on, double z, double z_rate) const {
+DrivenWheel::Span DrivenWheel::contact_span(const OnSoil& on, double z, double z_rate,
+                                            const OperatingCondition& at) const {
   const double r = tire_.radius, held = std::max(z, floor_);
-  const OperatingCondition any = condition({}, 0.0, 0.0, 0.0);
+  const OperatingCondition any = on.flexes ? at : condition({}, 0.0, 0.0, 0.0);
   Span span;
   span.entry = entry_angle(held, r);
   span.exit = on.wheel.angles(any, span.entry).exit;
@@ -145,44 +189,89 @@ DrivenWheel::Span DrivenWheel::contact_span(const OnSoil& on, double z, double z
   return span;
 }
 
+DrivenWheel::Tread DrivenWheel::tread(const OnSoil& on, const Span& span, const OperatingCondition& at) const {
+  const auto n = static_cast<std::size_t>(nodes_);
+  Tread t{std::vector<double>(n), std::vector<double>(n, 1.0), std::vector<double>(n), std::vector<double>(n), {}};
+  t.give = t.stretch;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double u = static_cast<double>(k + 1) / nodes_, theta = span.entry - u * span.length();
+    t.travel[k] = u * span.length(), t.normal_sine[k] = std::sin(theta), t.normal_cosine[k] = std::cos(theta);
+  }
+  if (!on.flexes) return t;
+  ContactPatch patch;
+  on.wheel.tread(at, span.entry, t.travel, patch);
+  for (std::size_t k = 0; k < n; ++k) {
+    t.travel[k] = patch.since_entry[k], t.stretch[k] = patch.arc[k] / on.outline.radius;
+    t.normal_sine[k] = patch.normal_sine[k], t.normal_cosine[k] = patch.normal_cosine[k];
+    t.give[k] = give_at(patch.theta[k], patch.normal_sine[k], patch.normal_cosine[k]);
+  }
+  return t;
+}
+
+/// A carcass gives way to the soil that acts, and what acts may depend on the slip: both are found in turn.
+DrivenWheel::Contact DrivenWheel::contact(const OnSoil& on, const Place& place, std::span<const double> state) const {
+  constexpr int most_rounds = 8;
+  Contact c;
+  for (int round = 0; round < most_rounds; ++round) {
+    const OperatingCondition at = condition(place, c.slip, state[speed], state[travelled]);
+    const Span span = contact_span(on, state[depth], state[sinking], at);
+    if (round > 0 && span.exit == c.span.exit) break;
+    c.span = span, c.tread = tread(on, span, at);
+    c.slip = slip_in_contact(on, span, c.tread, state);
+    if (!on.flexes) break;
+  }
+  return c;
+}
+
 /// The v/(r w) of a steady wheel with this j at the exit, as a slip.
-double DrivenWheel::slip_in_contact(const OnSoil& on, const Span& span, std::span<const double> state) const {
+double DrivenWheel::slip_in_contact(const OnSoil& on, const Span& span, const Tread& tread,
+                                    std::span<const double> state) const {
   const double at_exit = state[first_node + static_cast<std::size_t>(nodes_) - 1];
-  const double ratio = (on.outline.shear_radius * span.length() - at_exit) /
+  const double ratio = (on.outline.shear_radius * tread.travel.back() - at_exit) /
                        (on.outline.slip_radius * (std::sin(span.entry) - std::sin(span.exit)));
   constexpr double highest = 1e3;  // a wheel that is dragged: all but locked
   const double held = std::clamp(ratio, 0.0, highest);
   return held <= 1.0 ? 1 - held : 1 / held - 1;
 }
 
-void DrivenWheel::node_rates(const OnSoil& on, const Span& span, const Place& place, std::span<const double> state,
-                             std::span<double> out) const {
+void DrivenWheel::node_rates(const OnSoil& on, const Contact& contact, const Place& place,
+                             std::span<const double> state, std::span<double> out) const {
+  const Span& span = contact.span;
+  const Tread& rim = contact.tread;
   const double scale = on.outline.slip_radius / tire_.radius, v = state[speed];
   const double along = v * std::cos(place.yaw), across = v * std::sin(place.yaw);
   const std::span<const double> nodes = state.subspan(first_node);
+  const Cornered j(on, rim, nodes, 1.0);
+  const auto slope = [&](int across_it, int i, bool with_stream) {
+    return j.share(across_it) * rim.stretch[static_cast<std::size_t>(i)] * span.length() +
+           slope_at(line(j.rest, across_it), i, with_stream);
+  };
   for (int i = 0; i < nodes_; ++i) {
-    const double u = static_cast<double>(i + 1) / nodes_, theta = span.entry - u * span.length();
-    const double stream = (state[spin] + span.entry_rate - u * (span.entry_rate - span.exit_rate)) / span.length();
-    const double sliding =
-        on.outline.shear_radius * state[spin] + scale * (state[sinking] * std::sin(theta) - along * std::cos(theta));
     const auto k = static_cast<std::size_t>(i);
-    out[k] = span.grip * sliding - stream * slope_at(line(nodes, 0), i, stream >= 0.0);
+    const double u = static_cast<double>(i + 1) / nodes_;
+    const double stream =
+        (state[spin] / rim.stretch[k] + span.entry_rate - u * (span.entry_rate - span.exit_rate)) / span.length();
+    const double sliding = on.outline.shear_radius * state[spin] +
+                           scale * (state[sinking] * rim.give[k] * rim.normal_sine[k] - along * rim.normal_cosine[k]);
+    out[k] = span.grip * sliding - stream * slope(0, i, stream >= 0.0);
     if (!turns_) continue;
     const std::size_t y = k + static_cast<std::size_t>(nodes_);
-    out[y] = span.grip * scale * across - stream * slope_at(line(nodes, 1), i, stream >= 0.0);
+    out[y] = span.grip * scale * across - stream * slope(1, i, stream >= 0.0);
   }
 }
 
-DrivenWheel::Push DrivenWheel::push(const OnSoil& on, const Span& span, const OperatingCondition& at,
-                                    std::span<const double> state, std::span<const double> j) const {
+DrivenWheel::Push DrivenWheel::push(const OnSoil& on, const Contact& touching, const OperatingCondition& at,
+                                    std::span<const double> state, std::span<const double> effective_j) const {
   ContactPatch patch;
+  const Cornered j(on, touching.tread, effective_j, state[rolled]);
   const WheelForces f = on.wheel.hold(
-      at, span.entry,
+      at, touching.span.entry,
       [&](ContactPatch& p, const Outline&) {
         const double length = p.angles.entry - p.angles.exit;
         for (int i = 0; i < p.count; ++i) {
-          p.j_x[i] = value_at(line(j, 0), p.since_entry[i] / length);
-          p.j_y[i] = turns_ ? value_at(line(j, 1), p.since_entry[i] / length) : 0.0;
+          const double u = (on.flexes ? p.angles.entry - p.theta[i] : p.since_entry[i]) / length;
+          p.j_x[i] = j.share(0) * p.since_entry[i] + value_at(line(j.rest, 0), u);
+          p.j_y[i] = turns_ ? j.share(1) * p.since_entry[i] + value_at(line(j.rest, 1), u) : 0.0;
         }
       },
       patch);
@@ -198,21 +287,25 @@ DrivenWheel::Push DrivenWheel::push(const OnSoil& on, const Span& span, const Op
   }
   for (int i = 0; i < patch.count; ++i) {
     const double s = patch.normal_sine[i], c = patch.normal_cosine[i];
-    p.compaction += b * patch.arc[i] * patch.sigma[i] * (e * along * s + dz * c);
-    p.shear += b * patch.arc[i] * (patch.tau_x[i] * (patch.arm[i] * w - along * c + dz * s) + patch.tau_y[i] * across);
+    const double area = b * patch.arc[i], give = on.flexes ? give_at(patch.theta[i], s, c) : 1.0;
+    p.compaction += area * patch.sigma[i] * (e * along * s + dz * give * c);
+    p.shear += area * (patch.tau_x[i] * (patch.arm[i] * w - along * c + dz * give * s) + patch.tau_y[i] * across);
+    p.carcass += area * (1 - give) * dz * (patch.sigma[i] * c + patch.tau_x[i] * s);
   }
+  p.deflection = patch.deflection;
   const double c = std::cos(at.yaw), s = std::sin(at.yaw);
   p.forward = forward * c - left * s, p.left = forward * s + left * c;
   p.upward = f.vertical, p.torque = f.torque;
   return p;
 }
 
-DrivenWheel::Push DrivenWheel::push(const Place& place, const Span& span, const OperatingCondition& at,
+DrivenWheel::Push DrivenWheel::push(const Place& place, const Contact& touching, const OperatingCondition& at,
                                     std::span<const double> state, std::span<const double> effective_j) const {
-  Push p = push(soils_[place.soil], span, at, state, effective_j);
+  Push p = push(soils_[place.soil], touching, at, state, effective_j);
   for (std::size_t i = place.soil + 1; i <= place.last_soil; ++i) {
     const OnSoil& next = soils_[i];
-    p.blend(push(next, contact_span(next, state[depth], state[sinking]), at, state, effective_j),
+    const Span span = contact_span(next, state[depth], state[sinking], at);
+    p.blend(push(next, {span, tread(next, span, at), touching.slip}, at, state, effective_j),
             way_.share(i, state[travelled]));
   }
   return p;
@@ -223,21 +316,23 @@ Instant DrivenWheel::assemble(double time, std::span<const double> state, const 
   Instant now;
   now.place = way_.at(state[travelled]);
   const OnSoil& on = soils_[now.place.soil];
-  const Span span = contact_span(on, state[depth], state[sinking]);
-  node_rates(on, span, now.place, state, node_rate);
-  now.contact_slip = slip_in_contact(on, span, state);
+  const Contact touching = contact(on, now.place, state);
+  const Span& span = touching.span;
+  node_rates(on, touching, now.place, state, node_rate);
+  now.contact_slip = touching.slip;
   const OperatingCondition at = condition(now.place, now.contact_slip, state[speed], state[travelled]);
   // Shear is damped by looking ahead along dj/dt, which is 0 where the wheel's motion is steady.
   std::vector<double> ahead(node_rate.size());
   for (std::size_t k = 0; k < ahead.size(); ++k) ahead[k] = state[first_node + k] + shear_time_ * node_rate[k];
-  const Push p = push(now.place, span, at, state, ahead);
+  const Push p = push(now.place, touching, at, state, ahead);
   const double g = span.grip;
   const double damping = std::max(g * heave_damping_ * state[sinking], -g * p.upward);  // soil doesn't pull
   now.motor_torque = motor.torque(time, state[spin], state[speed_error]);
   now.soil_torque = g * p.torque, now.forward = g * p.forward, now.left = g * p.left;
   now.upward = g * p.upward + damping;
-  now.compaction = g * p.compaction, now.shear = g * p.shear, now.added = g * p.added;
+  now.compaction = g * p.compaction, now.shear = g * p.shear, now.added = g * p.added, now.carcass = g * p.carcass;
   now.damping = damping * state[sinking];
+  now.deflection = g * p.deflection;
   return now;
 }
 
@@ -265,23 +360,26 @@ void DrivenWheel::rate(double time, std::span<const double> state, const Motor& 
 /// The push on a wheel that does not move, at the start.
 DrivenWheel::Push DrivenWheel::push_at_rest(const Place& start, std::span<const double> state) const {
   const OnSoil& on = soils_[start.soil];
-  const Span span = contact_span(on, state[depth], 0.0);
-  const double slip = slip_in_contact(on, span, state);
-  return push(start, span, condition(start, slip, 0.0, 0.0), state, state.subspan(first_node));
+  const Contact touching = contact(on, start, state);
+  return push(start, touching, condition(start, touching.slip, 0.0, 0.0), state, state.subspan(first_node));
 }
 
 /// Depth at which the soil carries the load with the shear that the state holds; the state gets it.
 double DrivenWheel::held_depth(std::vector<double>& state) const {
   const Place start = way_.at(0.0);
   const double load = drive_.load * std::cos(start.longitudinal_incline) * std::cos(start.transverse_incline);
+  Push p;
   const auto carried = [&](double z) {
     state[depth] = z;
-    return push_at_rest(start, state).upward - load;
+    p = push_at_rest(start, state);
+    return p.upward - load;
   };
   const double low = 1e-9 * tire_.radius, high = max_sinkage_share * tire_.radius;
-  if (carried(high) < 0.0)
+  if (carried(high) < 0.0) {
+    if (p.deflection > high - p.deflection) throw crushed_tire(p.upward, load);
     throw NoSolution(
         fmt::format("the wheel sinks deeper than {} of its radius before it is driven", max_sinkage_share));
+  }
   state[depth] = gsl::bracketed_root(carried, low, high, 1e-13, 1e-11 * load, "the depth of the wheel at rest");
   return state[depth];
 }

@@ -15,7 +15,7 @@ namespace soilbin::bekker_wong {
 enum StatePlace : std::size_t {
   travelled,    ///< x along the ground [m]
   speed,        ///< v [m/s]
-  depth,        ///< z [m]
+  depth,        ///< z of the circle [m]; the sinkage is less by the carcass's deflection
   sinking,      ///< dz/dt [m/s]
   turned,       ///< angle that the wheel has turned [rad]
   spin,         ///< w [rad/s]
@@ -37,7 +37,9 @@ struct Instant {
   double compaction = 0.0;    ///< power that presses the soil [W]
   double shear = 0.0;         ///< power that shears it [W]
   double added = 0.0;         ///< power against the effects' added forces [W]
+  double carcass = 0.0;       ///< power that flexes the tire's carcass, negative where that gives it back [W]
   double damping = 0.0;       ///< power of the damping of heave [W]
+  double deflection = 0.0;    ///< of a carcass that flattens: the tread stays so far above the circle's bottom [m]
 };
 
 /// A wheel at rest that motor and soil hold where it stands.
@@ -88,6 +90,7 @@ class DrivenWheel {
   struct OnSoil {
     RollingWheel wheel;
     Outline outline;
+    bool flexes;  ///< the carcass flattens
   };
   /// Ends of the contact and how they move.
   struct Span {
@@ -95,18 +98,27 @@ class DrivenWheel {
     double grip = 1.0;  ///< 1 in contact, falling to 0 as the wheel leaves the ground
     double length() const { return entry - exit; }
   };
+  /// The tread at the nodes of the shear displacement.
+  struct Tread;
+  /// The shear displacement as a share of the tread's travel and a rest.
+  struct Cornered;
+  /// A contact with its tread, and the slip that the soil under it has seen.
+  struct Contact;
   /// Forces in the wheel's axes and powers on one soil.
   struct Push;
 
   OperatingCondition condition(const Place& place, double slip, double speed, double x) const;
-  Span contact_span(const OnSoil& on, double z, double z_rate) const;
-  double slip_in_contact(const OnSoil& on, const Span& span, std::span<const double> state) const;
-  void node_rates(const OnSoil& on, const Span& span, const Place& place, std::span<const double> state,
+  /// at: what a carcass and its soil look at.
+  Span contact_span(const OnSoil& on, double z, double z_rate, const OperatingCondition& at) const;
+  Tread tread(const OnSoil& on, const Span& span, const OperatingCondition& at) const;
+  Contact contact(const OnSoil& on, const Place& place, std::span<const double> state) const;
+  double slip_in_contact(const OnSoil& on, const Span& span, const Tread& tread, std::span<const double> state) const;
+  void node_rates(const OnSoil& on, const Contact& contact, const Place& place, std::span<const double> state,
                   std::span<double> out) const;
-  Push push(const OnSoil& on, const Span& span, const OperatingCondition& at, std::span<const double> state,
+  Push push(const OnSoil& on, const Contact& touching, const OperatingCondition& at, std::span<const double> state,
             std::span<const double> effective_j) const;
-  /// On all the soils that the contact touches, each by its share. span: on the first of them.
-  Push push(const Place& place, const Span& span, const OperatingCondition& at, std::span<const double> state,
+  /// On all the soils that the contact touches, each by its share. touching: the first of them.
+  Push push(const Place& place, const Contact& touching, const OperatingCondition& at, std::span<const double> state,
             std::span<const double> effective_j) const;
   Push push_at_rest(const Place& start, std::span<const double> state) const;
   Instant assemble(double time, std::span<const double> state, const Motor& motor, std::span<double> node_rate) const;

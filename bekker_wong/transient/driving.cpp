@@ -8,7 +8,17 @@
 namespace soilbin::bekker_wong {
 namespace {
 
-enum SumPlace : std::size_t { by_motor, by_height, by_drawbar, by_compaction, by_shear, by_added, by_damping, sums };
+enum SumPlace : std::size_t {
+  by_motor,
+  by_height,
+  by_drawbar,
+  by_compaction,
+  by_shear,
+  by_added,
+  by_carcass,
+  by_damping,
+  sums
+};
 enum RootPlace : std::size_t { at_goal, at_stuck, at_lift, at_upper, at_lower, at_bury, at_roll_back, roots };
 
 static_assert(drive_limits::deepest <= max_sinkage_share, "a drive ends before the model does");
@@ -77,7 +87,7 @@ class Ride {
     out[by_height] = wheel_.load() * (y[speed] * std::sin(alpha) - y[sinking] * std::cos(alpha) * std::cos(beta));
     out[by_drawbar] = now.place.drawbar * y[speed];
     out[by_compaction] = now.compaction, out[by_shear] = now.shear;
-    out[by_added] = now.added, out[by_damping] = now.damping;
+    out[by_added] = now.added, out[by_carcass] = now.carcass, out[by_damping] = now.damping;
   }
 
   /// Goes on to `until`; true where the drive ended on the way.
@@ -121,7 +131,7 @@ class Ride {
     DriveSample s;
     s.time = t, s.travelled = y[travelled], s.speed = y[speed], s.rim_speed = rim;
     s.slip = drive_slip(rim, y[speed] * std::cos(now.place.yaw), drive_.controller.rim_speed);
-    s.contact_slip = now.contact_slip, s.sinkage = y[depth], s.torque = now.motor_torque;
+    s.contact_slip = now.contact_slip, s.sinkage = y[depth] - now.deflection, s.torque = now.motor_torque;
     s.forward = now.forward, s.drawbar = now.place.drawbar, s.longitudinal_incline = alpha;
     s.lateral = now.left - wheel_.load() * std::cos(alpha) * std::sin(now.place.transverse_incline);
     s.energy = ledger(y);
@@ -135,7 +145,7 @@ class Ride {
                 0.5 * wheel_.inertia() * y[spin] * y[spin];
     e.motor = sum[by_motor], e.height = sum[by_height], e.drawbar = sum[by_drawbar];
     e.compaction = sum[by_compaction], e.shear = sum[by_shear];
-    e.added = sum[by_added], e.damping = sum[by_damping];
+    e.added = sum[by_added], e.carcass = sum[by_carcass], e.damping = sum[by_damping];
     return e;
   }
 

@@ -18,9 +18,10 @@ struct EnergyLedger : WheelEnergy {
   double compaction = 0.0;  ///< pressing the soil
   double shear = 0.0;       ///< shearing it
   double added = 0.0;       ///< against the effects' added forces
+  double carcass = 0.0;     ///< in the flexed carcass, which gives it back
   double damping = 0.0;     ///< of heave
   /// What is left over: the integration's error.
-  double unaccounted() const { return left() - compaction - shear - added - damping; }
+  double unaccounted() const { return left() - compaction - shear - added - carcass - damping; }
 };
 
 /// The wheel at one instant.

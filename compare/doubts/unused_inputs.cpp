@@ -142,9 +142,16 @@ bool hears_of(const bekker_wong::EffectForm& form, const std::string& key) {
   return depends_on(form, key);
 }
 
+/// Whether the study is a drive's: its wheel has no label.
+bool asked_by_drive(const Case& question) {
+  return question.drive && std::ranges::any_of(question.study.models, [](const ModelChoice& m) {
+           return m.model == ModelKind::bekker_wong && m.label.empty();
+         });
+}
+
 /// The effects of the catalogue that hear of this, as a flag takes them: "--effect soil_gradient or bed_tilt:curved",
-/// with their forms where some don't; where none does, how grains are asked.
-std::string hearing_effects(const std::string& key) {
+/// with their forms where some don't, or where they go in a drive; where none does, how grains are asked.
+std::string hearing_effects(const std::string& key, bool of_drive) {
   std::vector<std::string> names;
   for (const std::string& id : bekker_wong::effect_ids()) {
     std::vector<std::string> forms;
@@ -152,12 +159,14 @@ std::string hearing_effects(const std::string& key) {
     for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue()) {
       if (form.id != id) continue;
       ++all;
-      if (hears_of(form, key)) forms.push_back(id + ":" + form.form);
+      if (hears_of(form, key) && (!of_drive || form.steady_only.empty())) forms.push_back(id + ":" + form.form);
     }
     if (forms.size() == all) forms = {id};
     names.insert(names.end(), forms.begin(), forms.end());
   }
-  return names.empty() ? "--model dem" : fmt::format("--effect {}", fmt::join(names, " or "));
+  if (names.empty()) return "--model dem";
+  const std::string all = fmt::format("{}", fmt::join(names, " or "));
+  return of_drive ? all + " to the drive's effects" : "--effect " + all;
 }
 
 bool hears(const ModelChoice& choice, const Declared& declared) {
@@ -168,7 +177,7 @@ bool hears(const ModelChoice& choice, const Declared& declared) {
 
 /// That a thing which is given changes nothing of the analytic models or, where these hear or aren't asked, of grains,
 /// of resistive force theory or of cone_index.
-Doubts doubts_of_unused(const std::vector<ModelChoice>& models, const Declared& declared) {
+Doubts doubts_of_unused(const std::vector<ModelChoice>& models, const Declared& declared, bool of_drive) {
   const auto asked = [&](ModelKind kind) {
     return std::ranges::any_of(models, [&](auto& m) { return m.model == kind; });
   };
@@ -180,7 +189,7 @@ Doubts doubts_of_unused(const std::vector<ModelChoice>& models, const Declared& 
     by_others.push_back({DoubtKind::ignored_by_cone_index, {declared.of_cone}});
   if (!by_others.empty() && !wheel) return by_others;
   if (wheel && std::none_of(models.begin(), models.end(), [&](const ModelChoice& m) { return hears(m, declared); }))
-    return {Doubt{*declared.of_wheel, {declared.key, hearing_effects(declared.key)}}};
+    return {Doubt{*declared.of_wheel, {declared.key, hearing_effects(declared.key, of_drive)}}};
   if (!grains || !declared.of_grains) return {};
   return {Doubt{*declared.of_grains, {declared.key}}};
 }
@@ -218,7 +227,7 @@ Doubts unused_inputs(const Case& question) {
   for (const Declared& declared : declarable()) {
     if (declared.key.starts_with("lugs.") && tell_of(all, DoubtKind::lugs_ignored)) continue;  // says it of all of them
     if (declared.given(question)) {
-      append(all, doubts_of_unused(models, declared));
+      append(all, doubts_of_unused(models, declared, asked_by_drive(question)));
     } else if (declared.needs) {
       for (const std::string& id : in_need(models, declared)) all.push_back({*declared.needs, {declared.key, id}});
     }

@@ -146,12 +146,14 @@ DriveSide analytic_side(const AnalyticDrive& part) {
   const DriveRecord& record = part.record;
   DriveSide side{SideKind::analytic, "bekker_wong", {}, record.end, record.end_time, {}, record.happenings};
   for (const bekker_wong::DriveSample& s : record.samples)
-    side.samples.push_back(side_sample(s, s.energy.compaction + s.energy.shear + s.energy.added + s.energy.damping));
+    side.samples.push_back(
+        side_sample(s, s.energy.compaction + s.energy.shear + s.energy.added + s.energy.carcass + s.energy.damping));
   const bekker_wong::EnergyLedger& end = record.samples.back().energy;
   side.soil_parts = {{"shears the soil", end.shear},
                      {"presses the soil", end.compaction},
                      {"added forces of effects", end.added},
                      {"damps the heave", end.damping}};
+  if (end.carcass != 0.0) side.soil_parts.push_back({"is in the tire's carcass", end.carcass});
   side.not_steady = unsteady(record, *part.question.drive);
   if (!side.not_steady.empty()) return side;
   side.steady = values_at(record.samples.back());

@@ -62,7 +62,7 @@ std::vector<Variant> variants_of(const dem::DemSettings& settings, const Scenari
     dem::Rig& rig = variant.settings.rig;
     rig.lowering *= factor, rig.resting *= factor, rig.starting *= factor;
   };
-  add("another packing").settings.packing += 1;
+  add("another bed sample").settings.packing += 1;
   size(add("bed twice as long"), &dem::BedSize::length, 2);
   size(add("bed twice as wide"), &dem::BedSize::width, 2);
   size(add("bed twice as deep"), &dem::BedSize::depth, 2);

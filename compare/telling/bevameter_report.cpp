@@ -80,7 +80,7 @@ Table values_table(const BevameterFit& fit, const Soil& soil) {
 Report report_on(const BevameterFit& fit, const BevameterReadings& readings, const Soil& soil, int packings) {
   const std::string title = "bevameter: " + soil.name;
   Report report{title, "Simulated plates and rings on the grains of a soil.",
-                fmt::format("{}, {} packings", title, packings)};
+                fmt::format("{}, {} bed samples", title, packings)};
   report.add("Values", values_table(fit, soil));
   std::vector<std::string> left;
   if (fit.cohesion_as_fitted < 0)

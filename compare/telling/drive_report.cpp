@@ -293,6 +293,7 @@ Table energy_table(const EnergyLedger& e) {
     table.add({name, number(joules), given != 0.0 ? number(100 * joules / given) : "-"});
   };
   add("shears the soil", e.shear), add("presses the soil", e.compaction), add("added forces of effects", e.added);
+  if (e.carcass != 0.0) add("is in the tire's carcass", e.carcass);
   if (motor_alone || e.height >= 0.0) add("lifts the load", e.height);
   add("pulls the drawbar", e.drawbar), add("is in motion", e.kinetic);
   if (e.motor < 0.0) add("is taken by the motor, which brakes", -e.motor);
@@ -373,6 +374,7 @@ const DriveColumns<DriveSample>& sample_columns() {
                            {"added_forces_J", [](const S& s) { return s.energy.added; }},
                            {"damping_J", [](const S& s) { return s.energy.damping; }},
                            {"unaccounted_J", [](const S& s) { return s.energy.unaccounted(); }},
+                           {"carcass_J", [](const S& s) { return s.energy.carcass; }},
                        });
   return all;
 }
@@ -414,15 +416,11 @@ Json drive_json(const AnalyticDrive& part) {
                    {"soil_errors", errors_json(part.errors)},
                    {"steepest_steady_slope", or_null(part.steepest)}};
   document["happenings"] = happenings_json(record.happenings);
-  document["energy"] = {{"motor", end.energy.motor},
-                        {"kinetic", end.energy.kinetic},
-                        {"height", end.energy.height},
-                        {"drawbar", end.energy.drawbar},
-                        {"compaction", end.energy.compaction},
-                        {"shear", end.energy.shear},
-                        {"added_forces", end.energy.added},
-                        {"damping", end.energy.damping},
-                        {"unaccounted", end.energy.unaccounted()}};
+  document["energy"] = {{"motor", end.energy.motor},           {"kinetic", end.energy.kinetic},
+                        {"height", end.energy.height},         {"drawbar", end.energy.drawbar},
+                        {"compaction", end.energy.compaction}, {"shear", end.energy.shear},
+                        {"added_forces", end.energy.added},    {"carcass", end.energy.carcass},
+                        {"damping", end.energy.damping},       {"unaccounted", end.energy.unaccounted()}};
   document["samples"] = columns_json(sample_columns(), record.samples);
   return document;
 }

@@ -47,8 +47,9 @@ std::string line_text(const char* name, const dem::StrengthLine& line) {
 /// A stress that was held to more than 1 %: which, of which run, and what to do; "" where it was held.
 std::string held_text(const char* name, double stress, std::uint64_t packing, double error) {
   if (error <= 0.01) return "";
-  return fmt::format("The {} of {} kPa (packing {}) was held to {} %, not to 1 %: a slower test holds it (--inertial).",
-                     name, number(stress / 1e3), packing, number(error * 100));
+  return fmt::format(
+      "The {} of {} kPa (specimen {}) was held to {} %, not to 1 %: a slower test holds it (--inertial).", name,
+      number(stress / 1e3), packing, number(error * 100));
 }
 
 Json json_of(const dem::HeldStress& held) { return {{"at_peak", held.at_peak}, {"at_residual", held.at_residual}}; }
@@ -131,7 +132,7 @@ Report report_on(const dem::DirectShearResult& result, const std::string& soil) 
              {"dilation", column(run.curve, &Sample::dilation)}};
     runs.push_back(std::move(one));
     const auto mm = column(run.curve, times(&Sample::displacement, 1e3));
-    const std::string label = fmt::format("{} kPa, packing {}", number(run.stress / 1e3), run.packing);
+    const std::string label = fmt::format("{} kPa, specimen {}", number(run.stress / 1e3), run.packing);
     add_line(shear, label, mm, column(run.curve, [](const Sample& s) { return s.shear_stress / s.normal_stress; }));
     add_line(lift, label, mm, column(run.curve, times(&Sample::dilation, 1e3)));
   }
@@ -176,7 +177,7 @@ Report report_on(const dem::TriaxialResult& result, const std::string& soil) {
                     {"lateral_x", column(run.curve, &Sample::lateral_x)},
                     {"lateral_y", column(run.curve, &Sample::lateral_y)}});
     const auto percent = column(run.curve, times(&Sample::strain, 100));
-    const std::string label = fmt::format("{} kPa, packing {}", number(run.stress / 1e3), run.packing);
+    const std::string label = fmt::format("{} kPa, specimen {}", number(run.stress / 1e3), run.packing);
     const auto sine = column(run.curve, [](const Sample& s) {
       const double lateral = (s.lateral_x + s.lateral_y) / 2;
       return (s.axial - lateral) / (s.axial + lateral);

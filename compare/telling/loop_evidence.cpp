@@ -94,8 +94,8 @@ struct ReasonWords {
   }
   std::string operator()(const BaseModelWrong&) const {
     return fmt::format(
-        "the base model is wrong by a smooth function of load and slip; beside that {} is strongest ({})",
-        named_effects(found.best().ids), noise_verdict(found.signatures));
+        "the base model errs by a smooth function of load and slip, {}; of the known effects {} comes nearest",
+        noise_verdict(found.signatures), named_effects(found.best().ids));
   }
 };
 

@@ -55,7 +55,8 @@ struct Drawing {
   }
 };
 
-std::string in_mm(double metres) { return fmt::format("{:.4g}", 1000 * metres + 0.0); }
+/// To four digits, a nanometre at the finest: less is rounding.
+std::string in_mm(double metres) { return fmt::format("{:.4g}", std::round(1e9 * metres) / 1e6 + 0.0); }
 
 std::string moved_in_words(const Vec3& by) {
   return fmt::format("moved by ({}, {}, {}) mm, so that the middle of its axle is the origin", in_mm(by.x), in_mm(by.y),

@@ -80,7 +80,7 @@ class Shards(Attack):
         self.assertGreater(plan["core_hours_left"], 0)
         self.assertEqual(files_in(self.here), ["case.yaml", "pebbles.yaml"], "a dry run makes nothing")
         out, _ = self.expect(0, [], "bed", self.case, *BED, "--packings", "2", "--shard", "2/2")
-        self.assertIn("bed of packing 2: ", out)
+        self.assertIn("bed sample 2: ", out)
         self.assertEqual(self.plan()["beds_to_settle"], [1])
         out, _ = self.expect(0, [], "bed", self.case, *BED, "--packings", "2")
         self.assertEqual((out.count("settled:"), out.count("is there:")), (1, 1))

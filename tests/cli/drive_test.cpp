@@ -85,6 +85,33 @@ TEST(Drive, ItsSteepestSlopeIsThatAcrossTheSlopeOfItsStart) {
   EXPECT_NEAR(json.json()["steepest_steady_slope"].get<double>(), limits["steepest_slope"].get<double>(), 1e-9);
 }
 
+// A drive keeps to its effects; what is advised of a tire with a pressure is what a drive takes.
+TEST(Drive, ATireWithAPressureIsFlexibleWhereItsEffectsSaySo) {
+  const Scratch scratch;
+  const std::string truck = R"(format: soilbin-case/1
+name: truck
+tire: {radius: 670 mm, width: 430 mm, inflation_pressure: 150 kPa, carcass_pressure: 20 kPa}
+soil: sandy-loam
+drive:
+  load: 37.5 kN
+  duration: 4 s
+  controller: {rim_speed: 1 m/s}
+)",
+                    file = scratch.write("truck.yaml", truck).string(),
+                    flexible = scratch.write("flexible.yaml", truck + "  effects: [tire_flexibility]\n").string();
+  const Outcome rigid = soilbin("drive '" + file + "' --samples 20");
+  EXPECT_THAT(rigid.err, HasSubstr("the inflation pressure is ignored: add tire_flexibility:flat_section or "
+                                   "tire_flexibility:carcass_spring to the drive's effects"));
+  EXPECT_THAT(rigid.out, Not(HasSubstr("carcass")));
+  const Outcome flat = soilbin("drive '" + flexible + "' --samples 20"),
+                json = soilbin("drive '" + flexible + "' --samples 20 --json");
+  EXPECT_THAT(flat.err, Not(HasSubstr("ignored")));
+  EXPECT_THAT(flat.out, HasSubstr("is in the tire's carcass"));
+  const nlohmann::json energy = json.json()["energy"];
+  EXPECT_LT(std::abs(energy["unaccounted"].get<double>()), 1e-4 * energy["motor"].get<double>());
+  EXPECT_NE(energy["carcass"], 0.0);
+}
+
 // Downhill gravity works too: shares are of all that is put in, and sum to 100 %. Shear gives a little of it back.
 TEST(Drive, DownhillGravityPutsWorkIn) {
   const Scratch scratch;

@@ -85,7 +85,7 @@ TEST(SlowElementTestCommand, SaysWhereTheStressWasNotHeld) {
   const std::string cell = "element-test triaxial paper-sand --size 0.5 --stress 20kPa --threads 1";
   EXPECT_THAT(soilbin(cell).out, Not(HasSubstr("not to 1 %")));
   EXPECT_THAT(soilbin(cell + " --inertial 0.05").out,
-              HasSubstr("The confining stress of 20.00 kPa (packing 1) was held to "));
+              HasSubstr("The confining stress of 20.00 kPa (specimen 1) was held to "));
 }
 
 TEST(SlowElementTestCommand, PressesPlatesOfTheSizeThatIsGiven) {

@@ -259,8 +259,8 @@ TEST(ReasonWords, SayEachReason) {
        "the residual is real (not explained by noise (p = 0.012)), and after the best set of known effects setpoints "
        "still deviate more than their re-runs scatter (p = 0.001)"},
       {BaseModelWrong{},
-       "the base model is wrong by a smooth function of load and slip; beside that slip sinkage is strongest (not "
-       "explained by noise (p = 0.012))"}};
+       "the base model errs by a smooth function of load and slip, not explained by noise (p = 0.012); of the known "
+       "effects slip sinkage comes nearest"}};
   for (const auto& [reason, words] : all) {
     judged.reason = reason;
     EXPECT_EQ(reason_words(judged), words);

@@ -254,6 +254,8 @@ TEST_F(Drawings, TheAxleIsTurnedToYAndTheMiddleMovedToTheOrigin) {
   EXPECT_EQ(along_z.mesh.vertices(), upright.vertices());
   const DrawnWheel aside = drawn([](const Vec3& v) { return v + Vec3{100, 20, -30}; });
   EXPECT_THAT(aside.changes, ElementsAre("moved by (-100, -20, 30) mm, so that the middle of its axle is the origin"));
+  const DrawnWheel by_a_third = drawn([](const Vec3& v) { return v + Vec3{100.0 / 3, 0, 0}; });
+  EXPECT_THAT(by_a_third.changes, ElementsAre(HasSubstr(", 0, 0) mm"))) << "rounding is no way";
   EXPECT_NEAR(aside.radius, 0.062, 1e-12);
   EXPECT_NEAR(aside.left, -0.02, 1e-12);
 }

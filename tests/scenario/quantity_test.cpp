@@ -80,6 +80,10 @@ TEST(Quantity, UnitsOfSinkageModuliAreReadAsPeopleSpellThem) {
   expect_near(si("3 lb/ft^2", "kPa"), 3 * psi * inch * inch / foot / foot);
   expect_near(si("62.4 lb/ft^3", "kg/m^3"), 62.4 * 0.45359237 / std::pow(foot, 3));  // a mass, where one is asked
   EXPECT_DOUBLE_EQ(si("2 m\u00b2", "m^2"), 2.0);
+  EXPECT_EQ(si("1600 kg/m3", "kg/m^3"), 1600.0);  // as letters without superscripts have it
+  EXPECT_EQ(si("1.6g/cm3", "kg/m^3"), si("1.6 g/cm^3", "kg/m^3"));
+  EXPECT_EQ(si("1.62 m/s2", "m/s^2"), 1.62);
+  EXPECT_EQ(si("100 kN/m2", "kPa"), 1e5);
   EXPECT_DOUBLE_EQ(si("2 s\u207b\u00b9", "1/s"), 2.0);
 }
 
@@ -103,10 +107,10 @@ TEST(Quantity, ARefusalSaysWhatWasExpected) {
 
 TEST(Quantity, RubbishIsRefused) {
   for (const char* text :
-       {"",        " ",       "mm",        "m 3",      "1 m m m)", "1 m)",   "1 (m",   "1 m^",      "1 m^(n",
-        "1 m^x",   "1 m;",    "1 2 m",     "0x10 m",   "--1 m",    "1..2 m", "1e m",   "nan m",     "inf m",
-        "-inf m",  ".nan",    "1e999 m",   "1e-999 m", "1 m/",     "1 *m",   "1 m^99", "1 m^(n*n)", "1 m^{n",
-        "1 m^(n}", "1 m^--2", "1 m\u207a", "1 m!",     "one m",    "1 m # x"})
+       {"",        " ",        "mm",      "m 3",   "1 m m m)", "1 m)",      "1 (m",   "1 m^",    "1 m^(n",  "1 m^x",
+        "1 m;",    "1 2 m",    "0x10 m",  "--1 m", "1..2 m",   "1e m",      "nan m",  "inf m",   "-inf m",  ".nan",
+        "1e999 m", "1e-999 m", "1 m/",    "1 *m",  "1 m^99",   "1 m^(n*n)", "1 m^{n", "1 m^(n}", "1 m^--2", "1 m\u207a",
+        "1 m!",    "one m",    "1 m # x", "1 m1",  "1 m20",    "1 m2.5",    "1 m23"})
     EXPECT_THROW(si(text, "m"), InputError) << "'" << text << "'";
   EXPECT_THAT(refusal([] { si("nan", "m"); }), HasSubstr("finite"));
   EXPECT_THROW(si(std::string(100'000, '('), "m"), InputError);
