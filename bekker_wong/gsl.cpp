@@ -5,17 +5,21 @@
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_min.h>
 #include <gsl/gsl_multimin.h>
+#include <gsl/gsl_multiroots.h>
 #include <gsl/gsl_roots.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "bekker_wong/gsl_systems.hpp"
 
 namespace soilbin::gsl {
 namespace {
@@ -187,6 +191,49 @@ double minimise(const Slope& f, std::span<double> x, double gradient_tol, int st
   }
   std::copy_n(minimiser->x->data, x.size(), x.begin());
   return minimiser->f;
+}
+
+SystemRoot system_root(const Equations& equations, std::vector<double> start, double tol) {
+  using Solver = std::unique_ptr<gsl_multiroot_fsolver, Freed<gsl_multiroot_fsolver_free>>;
+  const std::size_t n = start.size();
+  const auto residual_of = [](std::span<const double> f) {
+    double largest = 0.0;
+    for (const double one : f) largest = std::isfinite(one) ? std::max(largest, std::abs(one)) : HUGE_VAL;
+    return largest;
+  };
+  std::vector<double> f(n);
+  equations(start, f);
+  if (residual_of(f) <= tol) return {std::move(start), residual_of(f)};
+  struct Called {
+    const Equations& equations;
+    std::exception_ptr thrown{};
+  } called{equations};
+  gsl_multiroot_function function{[](const gsl_vector* x, void* o, gsl_vector* into) -> int {
+                                    Called& call = *static_cast<Called*>(o);
+                                    try {
+                                      call.equations({x->data, x->size}, {into->data, into->size});
+                                      return GSL_SUCCESS;
+                                    } catch (...) {  // no exception passes through C
+                                      call.thrown = std::current_exception();
+                                      return GSL_EBADFUNC;
+                                    }
+                                  },
+                                  n, &called};
+  const Solver solver(gsl_multiroot_fsolver_alloc(gsl_multiroot_fsolver_hybrids, n));
+  const gsl_vector_view from = gsl_vector_view_array(start.data(), n);
+  int status = gsl_multiroot_fsolver_set(solver.get(), &function, &from.vector);
+  SystemRoot best{start, residual_of(f)};
+  constexpr int most_steps = 100;
+  for (int step = 0; step < most_steps && status == GSL_SUCCESS && best.residual > tol; ++step) {
+    status = gsl_multiroot_fsolver_iterate(solver.get());
+    if (called.thrown) break;
+    if (const double residual = residual_of({solver->f->data, n}); residual < best.residual) {
+      best.residual = residual;
+      best.x.assign(solver->x->data, solver->x->data + n);
+    }
+  }
+  if (called.thrown) std::rethrow_exception(called.thrown);
+  return best;
 }
 
 }  // namespace soilbin::gsl

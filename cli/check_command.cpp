@@ -15,8 +15,8 @@
 #include "compare/recorded/step_pair.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/vehicle/vehicle.hpp"
 #include "cone_index/vehicle.hpp"
-#include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/yaml_node.hpp"
 
@@ -86,6 +86,13 @@ CheckedFile judge(const fs::path& file, const Workplace& place) {
     const cone_index::Vehicle vehicle = cone_index::parse_vehicle(read_source_text(file, largest_yaml));
     cone_index::vehicle_cone_index(vehicle);  // refuses what no vehicle can be
     return {fmt::format("vehicle '{}'", vehicle.name.empty() ? file.stem().string() : vehicle.name), {}};
+  }
+  if (format == compare::vehicle_case_format) {
+    const compare::VehicleCase vehicle =
+        compare::parse_vehicle_case(read_source_text(file, largest_yaml), place.library, place.effects);
+    return {fmt::format("vehicle '{}': {} on {}", vehicle.name, compare::counted(vehicle.axles.size(), "axle"),
+                        compare::in_words(vehicle.soil)),
+            compare::doubts(vehicle.soil)};
   }
   const Case question =
       read_case(file, place.library, place.effects);  // refuses any other format with the nearest word

@@ -34,6 +34,7 @@ void add_plates(CLI::App& app, Session& session);
 void add_shear(CLI::App& app, Session& session);
 void add_limits(CLI::App& app, Session& session);
 void add_mobility(CLI::App& app, Session& session);
+void add_vehicle(CLI::App& app, Session& session);
 void add_predict(CLI::App& app, Session& session);
 void add_calibrate(CLI::App& app, Session& session);
 void add_campaign(CLI::App& app, Session& session);

@@ -45,6 +45,7 @@ std::vector<std::string> add_commands(CLI::App& app, Session& session) {
         {add_explain},
         {add_limits},
         {add_mobility},
+        {add_vehicle},
         with_grains(add_run),
         with_grains(add_drive),
         {add_serve}}},

@@ -40,6 +40,7 @@ struct BevameterReadings;
 struct Campaign;
 struct DriveSides;
 struct FailureMapResult;
+struct GoMap;
 struct Finding;
 struct MeasuredPlate;
 struct MeasuredPlatesFit;
@@ -48,6 +49,7 @@ struct MeasuredShearFit;
 struct ModelAnswers;
 struct Prediction;
 struct Reproduction;
+struct VehicleAnswers;
 struct WheelLimits;
 
 /// What a wheel can do at best: of each answer a table over the slopes and what the steepest one is. `at_limits`:
@@ -72,6 +74,11 @@ Report report_on(const DriveSides& drive);
 /// Whether a vehicle gets through, what it needs and by which parts, which sources were taken; soilbin-mobility/1.
 /// `soil`: the name of the one that the rating cone index is of; "" where it was given.
 Report report_on(const cone_index::Mobility& mobility, const std::string& soil);
+
+/// A vehicle on a soil: whether it travels, how steep, each wheel, power, pull against slip; soilbin-vehicle-answer/1.
+Report report_on(const VehicleAnswers& answers);
+/// A row for each slope and heading.
+std::string csv_of(const GoMap& map);
 
 /// What measured plate tests gave: the values with the parts of their errors, each plate by itself, what was set aside,
 /// and the lines that a campaign or a soil file takes; readings and Bekker's form drawn; soilbin-plates/1. `file`: name

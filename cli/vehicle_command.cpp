@@ -1,0 +1,91 @@
+// soilbin vehicle: a vehicle's wheels on soil: does it go, how steep, and which wheel gives out.
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "bekker_wong/model.hpp"
+#include "cli/commands.hpp"
+#include "cli/described_flags.hpp"
+#include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
+#include "cli/progress.hpp"
+#include "cli/question.hpp"
+#include "compare/telling/reports.hpp"
+#include "compare/vehicle/vehicle_answers.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+struct VehicleOptions {
+  std::string file, soil, map;
+  unsigned samples = 50;
+  compare::TireLeftOut left_out;
+  DescribedFlags<compare::VehicleCondition> condition;
+  OutputFlags outputs;
+};
+
+/// What there is to doubt: notes, then soil, tires and the answers of each axle's first wheel.
+compare::Doubts doubts_about(const compare::VehicleAnswers& answers, compare::Doubts notes) {
+  std::set<std::size_t> axles;
+  for (std::size_t i = 0; i < answers.wheels.size(); ++i) {
+    const compare::VehicleWheel& wheel = answers.wheels[i];
+    if (!answers.steady || answers.steady->wheels[i].lifted || !axles.insert(wheel.axle).second) continue;
+    const TractionResult& result = answers.steady->wheels[i].result;
+    Case question;
+    question.name = wheel.name, question.scenario = wheel.scenario;
+    question.scenario.effects.clear();
+    question.study.models.emplace_back().effects = wheel.scenario.effects;
+    label_models(question.study.models);
+    question.study.conditions = {result.at};
+    append(notes, joined_doubts({}, question, {{question.study.models.front(), {{result.at, result, ""}}}}));
+  }
+  std::erase_if(notes, [](const compare::Doubt& doubt) {  // wheels in front have no rut, and the speed makes the power
+    return doubt.kind == compare::DoubtKind::effect_without_pass || doubt.kind == compare::DoubtKind::speed_ignored;
+  });
+  return once_each(notes);
+}
+
+int vehicle(const VehicleOptions& options, const Session& session) {
+  compare::VehicleCase question = compare::parse_vehicle_case(read_source_text(options.file, largest_yaml),
+                                                              session.place.library, session.place.effects);
+  if (!options.soil.empty()) question.soil = find_soil(options.soil, session.place.library);
+  options.condition.apply(question.condition);
+  std::vector<compare::VehicleWheel> wheels = wheels_of(question);
+  compare::Doubts notes = declare_tires(wheels, options.left_out);
+  const bekker_wong::BekkerWong model({.errors = false, .patch = false});
+  compare::VehicleAnswers answers = compare::answers_of(question, wheels, model);
+  if (!options.map.empty())
+    answers.map = compare::go_map(question, wheels, model,
+                                  {.samples = static_cast<int>(options.samples), .progress = shown_progress()});
+  const compare::Doubts doubts = doubts_about(answers, std::move(notes));
+  Outputs outputs = publish(compare::report_on(answers), options.outputs, doubts, session);
+  outputs.file(options.map, [&] { return compare::csv_of(*answers.map); });
+  return outputs.status(done);
+}
+
+}  // namespace
+
+void add_vehicle(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand(
+      "vehicle", "a vehicle on soil: does it go, how steep up, down and across, which wheel gives out");
+  const auto options = std::make_shared<VehicleOptions>();
+  add_value(*command, "file", options->file, "FILE.yaml", "a vehicle on a soil (soilbin-vehicle-case/1)")->required();
+  add_value(*command, "--soil", options->soil, "NAME|FILE", "in place of the file's soil");
+  options->condition.add_to(*command, "Condition");
+  command->add_flag("--rigid", options->left_out.pressure, "rigid wheels, whatever pressure the tires declare")
+      ->group("Model");
+  command->add_flag("--no-lugs", options->left_out.lugs, "smooth wheels, whatever lugs the tires declare")
+      ->group("Model");
+  CLI::Option* map = add_file(*command, "--map", options->map, "FILE.csv",
+                              "the chance to go over slope and heading, by the soil's standard deviations");
+  add_value(*command, "--samples", options->samples, "WHOLE", "soils that the map draws (50)")->needs(map);
+  options->outputs.add_to(*command, {.json = "soilbin-vehicle-answer/1, in SI",
+                                     .plot = "draw pull and sinkages against slip",
+                                     .csv = "save pull and wheels against slip"});
+  command->footer(
+      "Exit status 1 where the vehicle does not travel in the condition that is asked.\n"
+      "Example: soilbin vehicle cases/vehicles/truck.yaml --slope 5deg --pull 2kN");
+  command->callback([=, &session] { session.action = [=, &session] { return vehicle(*options, session); }; });
+}
+
+}  // namespace soilbin::cli

@@ -1,0 +1,432 @@
+// A vehicle on soil as it is told; soilbin-vehicle-answer/1.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bekker_wong/effect.hpp"
+#include "compare/report/heat_map.hpp"
+#include "compare/report/json_fields.hpp"
+#include "compare/report/number_text.hpp"
+#include "compare/telling/reports.hpp"
+#include "compare/vehicle/vehicle_answers.hpp"
+#include "scenario/csv.hpp"
+#include "scenario/unit.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+constexpr double exact_error = 0.0;
+
+double told_error(double error) { return std::isfinite(error) ? error : exact_error; }
+
+std::string wheel_called(const VehicleAnswers& answers, const VehicleFailure& failure) {
+  return failure.wheel ? answers.wheels[*failure.wheel].name : "";
+}
+
+/// What gave out, without a full stop.
+std::string failure_in_words(const VehicleAnswers& answers, const VehicleFailure& failure) {
+  const std::string wheel = wheel_called(answers, failure);
+  switch (failure.why) {
+    case GaveOut::wheel:
+      return fmt::format("the wheel '{}' gives out: {}", wheel, failure.words);
+    case GaveOut::pull:
+      return fmt::format("at every slip its wheels pull too little; the weakest for its load is '{}'", wheel);
+    case GaveOut::hold:
+      return fmt::format("the drive line does not hold it at any slip; the weakest wheel for its load is '{}'", wheel);
+    case GaveOut::tips_over:
+      return "it tips over";
+    case GaveOut::slides:
+      return "nothing balances the forces across its travel: it slides sideways";
+  }
+  return "";
+}
+
+const char* failure_word(GaveOut why) {
+  switch (why) {
+    case GaveOut::wheel:
+      return "wheel";
+    case GaveOut::pull:
+      return "pull";
+    case GaveOut::hold:
+      return "hold";
+    case GaveOut::tips_over:
+      return "tips_over";
+    case GaveOut::slides:
+      return "slides";
+  }
+  return "";
+}
+
+std::string condition_in_words(const VehicleCondition& at) {
+  std::string words = fmt::format("slope {:.4g} deg", at.slope / degree);
+  if (at.cross_slope != 0.0) words += fmt::format(", cross slope {:.4g} deg", at.cross_slope / degree);
+  words += fmt::format(", {:.4g} m/s", at.speed);
+  if (at.pull != 0.0) words += ", pulling " + newtons(at.pull);
+  return words;
+}
+
+std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
+  std::vector<BackedSentence> said;
+  if (answers.steady) {
+    const SteadyVehicle& v = *answers.steady;
+    said.push_back({"travels", fmt::format("its drive line slips by {} %; the wheels take {} W, {} J a metre",
+                                           number({v.slip, told_error(answers.errors.slip)}, 100),
+                                           number({v.power.into_wheels, told_error(answers.errors.into_wheels)}),
+                                           number(v.power.into_wheels / v.at.speed))});
+    if (answers.power_speed)
+      said.push_back({"power", fmt::format("the largest power is used up at {} m/s", number(*answers.power_speed))});
+    if (v.crab != 0.0)
+      said.push_back(
+          {"across", fmt::format("it points {} deg uphill of its travel{}",
+                                 number(std::copysign(1.0, v.at.cross_slope) * v.crab / degree),
+                                 v.steering != 0.0
+                                     ? fmt::format(", with its steered wheels turned by {} deg more",
+                                                   number(std::copysign(1.0, v.at.cross_slope) * v.steering / degree))
+                                     : "")});
+    if (const double arm = std::abs(v.yaw_moment); arm > 1e-6 * answers.question.mass)
+      said.push_back({"yaw moment",
+                      fmt::format("{} N m are left to turn it, which no steered axle balances", number(v.yaw_moment))});
+  } else {
+    said.push_back({"does not travel", failure_in_words(answers, *answers.failure) + "."});
+  }
+  return said;
+}
+
+TableCell limit_in_words(const VehicleLimit& limit) {
+  if (!limit.angle) return "-";
+  const bool known = std::isfinite(limit.angle->std_error);
+  return {number({limit.angle->value, told_error(limit.angle->std_error)}, 1 / degree),
+          known ? "" : "its error is not known"};
+}
+
+Table limits_of_vehicle(const VehicleAnswers& answers) {
+  Table table{"Steepest slopes", {"way", "slope [deg]", "slip there [%]", "what ends it"}};
+  table.text_columns = {true, false, false, true};
+  const auto add = [&](const char* way, const VehicleLimit& limit) {
+    table.add({way, limit_in_words(limit), limit.angle ? number(100 * limit.slip) : "-",
+               limit.angle ? failure_in_words(answers, limit.beyond) : "beyond what was looked at, or none"});
+  };
+  add("up", answers.up);
+  add("down", answers.down);
+  add("across", answers.across);
+  table.legend = "Straight up, straight down, level across, each with the pull that is asked.";
+  return table;
+}
+
+Table wheels_table(const VehicleAnswers& answers) {
+  Table table{"Wheels",
+              {"wheel", "load [N]", "slip [%]", "pull [N]", "torque [N m]", "sinkage [mm]", "contact area [cm^2]",
+               "ground pressure [kPa]", "pass"}};
+  for (std::size_t i = 0; i < answers.wheels.size(); ++i) {
+    const SteadyWheel& wheel = answers.steady->wheels[i];
+    const TractionResult& r = wheel.result;
+    if (wheel.lifted) {
+      table.add({answers.wheels[i].name, "0", "off the ground", "-", "-", "-", "-", "-",
+                 std::to_string(answers.wheels[i].pass)});
+      continue;
+    }
+    const SteadyErrors::Wheel e = i < answers.errors.wheels.size() ? answers.errors.wheels[i] : SteadyErrors::Wheel{};
+    table.add({{answers.wheels[i].name, wheel.at_largest_torque ? "at its largest torque" : ""},
+               number({wheel.normal_load, told_error(e.normal_load)}),
+               number({r.at.slip, told_error(e.slip)}, 100),
+               number({r.drawbar_pull.value, told_error(e.drawbar_pull)}),
+               number({r.torque.value, told_error(e.torque)}),
+               number({r.sinkage.value, told_error(e.sinkage)}, 1e3),
+               number(r.contact_area * 1e4),
+               number(wheel.normal_load / r.contact_area * 1e-3),
+               std::to_string(answers.wheels[i].pass)});
+  }
+  table.legend = "Load: normal to the ground. Pull: less the slope's share of the wheel's load.";
+  return table;
+}
+
+Table power_table(const SteadyVehicle& v) {
+  Table table{"Where the power goes", {"part", "W", "J a metre"}};
+  const std::pair<const char*, double> parts[] = {{"into the wheels", v.power.into_wheels},
+                                                  {"drawbar", v.power.drawbar},
+                                                  {"climbing", v.power.climbing},
+                                                  {"slip", v.power.slip_loss},
+                                                  {"sinkage and other resistance of the soil", v.power.soil_loss}};
+  const double nothing = 1e-9 * std::abs(v.power.into_wheels);  // what the balance leaves
+  for (const auto& [name, power] : parts) {
+    const double watt = std::abs(power) > nothing ? power : 0.0;
+    table.add({name, number(watt), number(watt / v.at.speed)});
+  }
+  return table;
+}
+
+Table pulls_table(const VehicleAnswers& answers) {
+  Table table{"Drawbar pull against slip", {"slip [%]", "pull [N]", "into the wheels [J a metre]", "deepest [mm]"}};
+  for (const VehiclePullRow& row : answers.pulls) {
+    if (!row.vehicle) {
+      table.add({number(100 * row.slip), "-", "-", "-"});
+      continue;
+    }
+    double deepest = 0.0;
+    for (const SteadyWheel& wheel : row.vehicle->wheels) deepest = std::max(deepest, wheel.result.sinkage.value);
+    table.add({number(100 * row.slip), number({row.vehicle->pull, told_error(row.pull_error)}),
+               number(row.vehicle->power.into_wheels / row.vehicle->at.speed), number(deepest * 1e3)});
+  }
+  return table;
+}
+
+/// What the answer does not know.
+std::vector<std::string> vehicle_remarks(const VehicleAnswers& answers) {
+  std::vector<std::string> said;
+  const bool ruts = std::ranges::any_of(answers.wheels, [](const VehicleWheel& wheel) { return wheel.pass > 1; });
+  const auto& effects = answers.question.effects;
+  const bool read = std::ranges::any_of(effects, [](const EffectChoice& effect) {
+    return bekker_wong::depends_on(bekker_wong::find_form(effect), "pass");
+  });
+  if (ruts && !read)
+    said.emplace_back(
+        "Wheels in ruts roll as on undisturbed soil: no effect reads the pass. Add multipass to the effects.");
+  if (ruts && read)
+    said.emplace_back(
+        "In a rut the effect multipass knows the number of the pass; load and slip of the wheel before are taken as "
+        "those of the wheel itself.");
+  const double friction_angle = answers.question.soil.semi_empirical->friction_angle.value;
+  if (std::ranges::any_of(std::array{answers.up, answers.down, answers.across}, [&](const VehicleLimit& limit) {
+        return limit.angle && limit.angle->value > friction_angle;
+      }))
+    said.push_back(fmt::format(
+        "Slopes above the friction angle, {:.3g} deg, may slide by themselves: slope stability is not checked.",
+        friction_angle / degree));
+  const std::size_t axles = answers.question.axles.size();
+  if (axles > 2)
+    said.push_back(fmt::format("Loads of {} axles: a rigid frame on {}.", axles,
+                               answers.question.axles.front().stiffness ? "springs of the stiffness that they declare"
+                                                                        : "springs that are all alike"));
+  if (axles == 1) said.emplace_back("One axle alone does not stand: it is held level, as in a rig.");
+  return said;
+}
+
+std::string degrees_text(double angle) { return fmt::format("{:.4g}", angle / degree); }
+
+Table map_table(const GoMap& map) {
+  Table table{"Chance to go [%], by slope and by heading from straight up", {"slope [deg]"}};
+  for (const double heading : map.headings) table.header.push_back(degrees_text(heading) + " deg");
+  for (std::size_t i = 0; i < map.slopes.size(); ++i) {
+    std::vector<TableCell> row = {degrees_text(map.slopes[i])};
+    for (const GoCell& cell : map.cells[i]) row.emplace_back(fmt::format("{:.0f}", 100 * cell.chance));
+    table.add(std::move(row));
+  }
+  double widest = 0.0;
+  for (const auto& row : map.cells)
+    for (const GoCell& cell : row) widest = std::max(widest, cell.std_error);
+  table.legend = fmt::format(
+      "Share of {} soils, drawn by the standard deviations of the soil's values, on which it travels steadily; a "
+      "share's "
+      "standard error is up to {:.0f} %. A soil on which it fails counts as failed on every steeper slope.",
+      map.samples, 100 * widest);
+  return table;
+}
+
+HeatMap heat_map_of_go(const GoMap& map) {
+  HeatMap heat;
+  heat.title = "Chance to go [%]", heat.subtitle = fmt::format("share of {} soils", map.samples);
+  heat.x_title = "heading from straight up [deg]", heat.y_title = "slope [deg]";
+  heat.limit = 1.0;
+  for (const double heading : map.headings) heat.x.push_back(degrees_text(heading));
+  for (std::size_t i = map.slopes.size(); i-- > 0;) {
+    heat.y.push_back(degrees_text(map.slopes[i]));
+    std::vector<HeatCell>& row = heat.cells.emplace_back();
+    for (std::size_t k = 0; k < map.headings.size(); ++k) {
+      const double chance = map.cells[i][k].chance;
+      row.push_back({2 * chance - 1, fmt::format("{:.0f}", 100 * chance),
+                     fmt::format("slope {} deg, heading {} deg: goes on {:.0f} % of the soils",
+                                 degrees_text(map.slopes[i]), degrees_text(map.headings[k]), 100 * chance)});
+    }
+  }
+  return heat;
+}
+
+Sheet vehicle_sheet(const VehicleAnswers& answers) {
+  const Axis slip{"slip of the drive line [%]"};
+  Sheet sheet{answers.question.name + " on " + answers.question.soil.name,
+              {{"Drawbar pull [N]", slip, {}, {}}, {"Sinkage [mm]", slip, {}, {}}}};
+  sheet.note = "bands: one standard error, from the standard deviations of the soil's values";
+  Series pull{"drawbar pull"};
+  for (const VehiclePullRow& row : answers.pulls) {
+    pull.x.push_back(100 * row.slip);
+    pull.y.push_back(row.vehicle ? row.vehicle->pull : not_a_number);
+    pull.error.push_back(told_error(row.pull_error));
+  }
+  sheet.plots[0].series.push_back(std::move(pull));
+  for (std::size_t i = 0; i < answers.wheels.size(); ++i) {
+    Series sinkage{answers.wheels[i].name};
+    sinkage.color = static_cast<int>(i) % 6;
+    sinkage.dash = static_cast<int>(i) / 6;
+    for (const VehiclePullRow& row : answers.pulls) {
+      sinkage.x.push_back(100 * row.slip);
+      sinkage.y.push_back(row.vehicle ? 1e3 * row.vehicle->wheels[i].result.sinkage.value : not_a_number);
+    }
+    sheet.plots[1].series.push_back(std::move(sinkage));
+  }
+  return sheet;
+}
+
+Json failure_json(const VehicleAnswers& answers, const VehicleFailure& failure) {
+  return {{"why", failure_word(failure.why)},
+          {"wheel", failure.wheel ? Json(wheel_called(answers, failure)) : Json()},
+          {"text", failure_in_words(answers, failure)}};
+}
+
+Json wheel_json(const VehicleWheel& about, const SteadyWheel& wheel, const SteadyErrors::Wheel& e) {
+  const TractionResult& r = wheel.result;
+  const auto estimate = [](double value, double error) { return estimate_json({value, error}); };
+  Json json = {{"wheel", about.name}, {"pass", about.pass}, {"off_the_ground", wheel.lifted}};
+  json["normal_load"] = estimate(wheel.normal_load, e.normal_load);
+  if (wheel.lifted) return json;
+  json["load"] = r.at.load;
+  json["yaw"] = r.at.yaw;
+  json["slip"] = estimate(r.at.slip, e.slip);
+  json["drawbar_pull"] = estimate(r.drawbar_pull.value, e.drawbar_pull);
+  json["torque"] = estimate(r.torque.value, e.torque);
+  json["sinkage"] = estimate(r.sinkage.value, e.sinkage);
+  json["lateral_force"] = r.lateral_force.value;
+  json["contact_area"] = finite(r.contact_area);
+  json["ground_pressure"] = finite(wheel.normal_load / r.contact_area);
+  json["rim_speed"] = finite(wheel.rim_speed);
+  json["power"] = finite(wheel.power_in);
+  json["at_largest_torque"] = wheel.at_largest_torque;
+  return json;
+}
+
+Json limit_json(const VehicleAnswers& answers, const VehicleLimit& limit) {
+  Json json = {{"slope", limit.angle ? estimate_json(*limit.angle) : Json()}};
+  if (!limit.angle) return json;
+  json["slip"] = limit.slip;
+  json["beyond"] = failure_json(answers, limit.beyond);
+  return json;
+}
+
+Json asked_of_vehicle_json(const VehicleCondition& at) {
+  return {{"slope", at.slope}, {"cross_slope", at.cross_slope}, {"speed", at.speed}, {"pull", at.pull}};
+}
+
+Json steady_vehicle_json(const VehicleAnswers& answers) {
+  const SteadyVehicle& v = *answers.steady;
+  Json json = {{"slip", estimate_json({v.slip, answers.errors.slip})},
+               {"pull", v.pull},
+               {"crab", v.crab},
+               {"steering", v.steering},
+               {"yaw_moment", v.yaw_moment},
+               {"nose_down", v.nose_down},
+               {"left_down", v.left_down},
+               {"power",
+                {{"into_wheels", estimate_json({v.power.into_wheels, answers.errors.into_wheels})},
+                 {"drawbar", v.power.drawbar},
+                 {"climbing", v.power.climbing},
+                 {"slip_loss", v.power.slip_loss},
+                 {"soil_loss", v.power.soil_loss}}},
+               {"energy_per_metre", v.power.into_wheels / v.at.speed}};
+  json["wheels"] = Json::array();
+  for (std::size_t i = 0; i < answers.wheels.size(); ++i)
+    json["wheels"].push_back(
+        wheel_json(answers.wheels[i], v.wheels[i],
+                   i < answers.errors.wheels.size() ? answers.errors.wheels[i] : SteadyErrors::Wheel{}));
+  return json;
+}
+
+Json map_json(const GoMap& map) {
+  Json json = {{"samples", map.samples}, {"slopes", map.slopes}, {"headings", map.headings}};
+  json["chance"] = Json::array();
+  for (const auto& row : map.cells) {
+    Json& to = json["chance"].emplace_back(Json::array());
+    for (const GoCell& cell : row) to.push_back(estimate_json({cell.chance, cell.std_error}));
+  }
+  return json;
+}
+
+Json vehicle_json(const VehicleAnswers& answers) {
+  const VehicleCase& question = answers.question;
+  Json document = {{"format", "soilbin-vehicle-answer/1"},
+                   {"vehicle", question.name},
+                   {"soil", question.soil.name},
+                   {"condition", asked_of_vehicle_json(question.condition)}};
+  document["steady"] = answers.steady ? steady_vehicle_json(answers) : Json();
+  document["failure"] = answers.failure ? failure_json(answers, *answers.failure) : Json();
+  document["speed_at_largest_power"] = or_null(answers.power_speed);
+  document["steepest"] = {{"up", limit_json(answers, answers.up)},
+                          {"down", limit_json(answers, answers.down)},
+                          {"across", limit_json(answers, answers.across)}};
+  document["map"] = answers.map ? map_json(*answers.map) : Json();
+  document["pulls"] = Json::array();
+  for (const VehiclePullRow& row : answers.pulls) {
+    Json json = {{"slip", row.slip}};
+    json["pull"] = row.vehicle ? estimate_json({row.vehicle->pull, row.pull_error}) : Json();
+    json["into_wheels"] = row.vehicle ? finite(row.vehicle->power.into_wheels) : Json();
+    if (row.failure) json["failure"] = failure_json(answers, *row.failure);
+    document["pulls"].push_back(std::move(json));
+  }
+  return document;
+}
+
+/// A row for each slip and wheel.
+std::string vehicle_csv(const VehicleAnswers& answers) {
+  std::string text =
+      "slip,pull_N,pull_se_N,into_wheels_W,wheel,wheel_load_N,wheel_slip,wheel_pull_N,wheel_torque_Nm,"
+      "wheel_sinkage_m,wheel_contact_area_m2,error\n";
+  for (const VehiclePullRow& row : answers.pulls) {
+    if (!row.vehicle) {
+      text += fmt::format("{},,,,,,,,,,,{}\n", csv_number(row.slip), csv_cell(failure_in_words(answers, *row.failure)));
+      continue;
+    }
+    for (std::size_t i = 0; i < answers.wheels.size(); ++i) {
+      const SteadyWheel& wheel = row.vehicle->wheels[i];
+      const TractionResult& r = wheel.result;
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},\n", csv_number(row.slip), csv_number(row.vehicle->pull),
+                          csv_number(row.pull_error), csv_number(row.vehicle->power.into_wheels),
+                          csv_cell(answers.wheels[i].name), csv_number(wheel.normal_load), csv_number(r.at.slip),
+                          csv_number(r.drawbar_pull.value), csv_number(r.torque.value), csv_number(r.sinkage.value),
+                          csv_number(r.contact_area));
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string csv_of(const GoMap& map) {
+  std::string text = "slope_deg,heading_deg,chance,chance_se\n";
+  for (std::size_t i = 0; i < map.slopes.size(); ++i)
+    for (std::size_t k = 0; k < map.headings.size(); ++k)
+      text += fmt::format("{},{},{},{}\n", csv_number(map.slopes[i] / degree), csv_number(map.headings[k] / degree),
+                          csv_number(map.cells[i][k].chance), csv_number(map.cells[i][k].std_error));
+  return text;
+}
+
+Report report_on(const VehicleAnswers& answers) {
+  const VehicleCase& question = answers.question;
+  Report report{"Vehicle: " + question.name, "Does it go, how steep, and which wheel gives out?",
+                fmt::format("{} ({:.6g} kg) on {}: {}", question.name, question.mass, question.soil.name,
+                            condition_in_words(question.condition))};
+  report.add(Sentences(vehicle_verdicts(answers)));
+  report.add(WarningsHere());
+  report.add("How steep", limits_of_vehicle(answers));
+  if (answers.steady) {
+    report.add("Wheel by wheel", wheels_table(answers));
+    report.add("Power", power_table(*answers.steady));
+  }
+  report.add("Pull", pulls_table(answers));
+  if (answers.map) {
+    report.add("Where it goes", map_table(*answers.map));
+    report.add(Drawings{{heat_map_svg(heat_map_of_go(*answers.map))},
+                        "Orange: goes on more than half of the soils; blue: on fewer.",
+                        "chance-to-go",
+                        true},
+               Told::to_look_at);
+  }
+  if (const auto remarks = vehicle_remarks(answers); !remarks.empty()) report.add(Sentences(remarks));
+  report.sheet = drawn_once([&] { return vehicle_sheet(answers); });
+  report.add("Against slip", Figure(report.sheet, "Band: one standard error of the pull."));
+  if (answers.failure) report.no_answer = "does not travel: " + failure_in_words(answers, *answers.failure);
+  report.data = [&answers] { return vehicle_json(answers); };
+  report.csv = [&answers] { return vehicle_csv(answers); };
+  return report;
+}
+
+}  // namespace soilbin::compare

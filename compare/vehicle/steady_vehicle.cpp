@@ -1,0 +1,383 @@
+#include "compare/vehicle/steady_vehicle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "bekker_wong/gsl.hpp"
+#include "bekker_wong/gsl_systems.hpp"
+#include "scenario/soil.hpp"
+#include "scenario/yawed_frames.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+constexpr double aimed_residual = 1e-13;  // what the search for a balance aims at, as a share of the weight
+constexpr double good_residual = 1e-9;    // what counts as one
+constexpr double lifts = 1e-9;            // share of the weight below which a wheel is off the ground
+constexpr double most_braked = -0.95;     // a locked wheel has no speed ratio
+constexpr double scanned_slip = 0.05;
+
+/// The plane a + b x + c y through the wheels' sinkages, by least squares; b and c are 0 where nothing tells them.
+struct SinkagePlane {
+  double along = 0.0, across = 0.0;
+};
+
+/// An angle within 40 deg of straight on, from an unknown that has no bounds: two of them stay below 90 deg.
+double turn_of(double unknown) {
+  constexpr double most = 0.7;
+  return most * std::tanh(unknown / most);
+}
+
+double mean_of_places(const std::vector<double>& all) {
+  double sum = 0.0;
+  for (const double one : all) sum += one;
+  return sum / static_cast<double>(all.size());
+}
+
+SinkagePlane plane_through(const std::vector<VehiclePoint>& points) {
+  std::vector<double> xs, ys, zs;
+  for (const VehiclePoint& point : points) xs.push_back(point.x), ys.push_back(point.y), zs.push_back(point.z);
+  const double x0 = mean_of_places(xs), y0 = mean_of_places(ys), z0 = mean_of_places(zs);
+  double xx = 0.0, yy = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double x = xs[i] - x0, y = ys[i] - y0, z = zs[i] - z0;
+    xx += x * x, yy += y * y, xy += x * y, xz += x * z, yz += y * z;
+  }
+  constexpr double none = 1e-18;
+  const double determinant = xx * yy - xy * xy;
+  if (determinant > none) return {(xz * yy - yz * xy) / determinant, (yz * xx - xz * xy) / determinant};
+  return {xx > none ? xz / xx : 0.0, yy > none ? yz / yy : 0.0};
+}
+
+/// A point of the vehicle in axes along the ground, when it is tilted.
+VehiclePoint tilted(const VehiclePoint& p, double nose_down, double left_down) {
+  const double s = std::sin(nose_down), c = std::cos(nose_down), t = std::sin(left_down), d = std::cos(left_down);
+  const double z = -p.y * t + p.z * d, y = p.y * d + p.z * t;
+  return {p.x * c + z * s, y, -p.x * s + z * c};
+}
+
+/// Sums of forces along the vehicle and of their moments about a point.
+struct Wrench {
+  double pitch = 0.0, roll = 0.0, yaw = 0.0;  ///< nose down, right side down, nose to the left [N m]
+
+  void add(const VehiclePoint& at, const GroundForce& along, double up) {
+    pitch += at.z * along.forward - at.x * up;
+    roll += at.y * up - at.z * along.left;
+    yaw += at.x * along.left - at.y * along.forward;
+  }
+};
+
+}  // namespace
+
+/// The unknowns of a balance: which of them there are, and their scales.
+struct SteadyVehicles::Modes {
+  double stiffness = 0.0;            ///< of all wheels
+  double x0 = 0.0, y0 = 0.0;         ///< middle of the springs [m]
+  double length = 0.0, width = 0.0;  ///< the farthest wheel from it [m]; 0: held as in a rig
+  bool pitches = false, rolls = false, crabs = false, steers = false;
+
+  std::size_t count() const {
+    return 1 + static_cast<std::size_t>(pitches) + static_cast<std::size_t>(rolls) + static_cast<std::size_t>(crabs) +
+           static_cast<std::size_t>(steers);
+  }
+};
+
+struct SteadyVehicles::Trial {
+  SteadyVehicle vehicle{};
+  std::vector<double> rest{};  ///< what is left of each balance, as a share of the weight
+};
+
+double SteadyVehicles::weight() const { return vehicle_.mass * gravity_of(vehicle_.soil); }
+
+SteadyVehicles::Modes SteadyVehicles::modes(const VehicleCondition& at) const {
+  Modes m;
+  const auto stiffness = [&](const VehicleWheel& wheel) { return vehicle_.axles[wheel.axle].stiffness.value_or(1.0); };
+  for (const VehicleWheel& wheel : wheels_) {
+    const double k = stiffness(wheel);
+    m.stiffness += k, m.x0 += k * wheel.place.x, m.y0 += k * wheel.place.y;
+  }
+  m.x0 /= m.stiffness, m.y0 /= m.stiffness;
+  for (const VehicleWheel& wheel : wheels_) {
+    m.length = std::max(m.length, std::abs(wheel.place.x - m.x0));
+    m.width = std::max(m.width, std::abs(wheel.place.y - m.y0));
+  }
+  constexpr double in_one_place = 1e-9;
+  m.pitches = m.length > in_one_place, m.rolls = m.width > in_one_place;
+  const bool lopsided = vehicle_.centre_of_gravity.y != m.y0 || vehicle_.hitch.at.y != 0.0;
+  m.crabs = m.pitches && (at.cross_slope != 0.0 || (m.rolls && lopsided));
+  m.steers = m.crabs &&
+             std::ranges::any_of(vehicle_.axles, [](const VehicleAxle& axle) { return axle.steered == YesNo::yes; });
+  return m;
+}
+
+SteadyWheel SteadyVehicles::rolled(std::size_t wheel, const OperatingCondition& at) const {
+  SteadyWheel steady;
+  if (at.load <= 0.0) {
+    steady.lifted = true;
+    steady.result.at = at;
+    return steady;
+  }
+  try {
+    steady.result = model_.evaluate(wheels_[wheel].scenario, at);
+  } catch (const NoSolution& error) {
+    throw VehicleGaveOut(GaveOut::wheel, wheel, error.what());
+  }
+  return steady;
+}
+
+/// The wheel at the slip next to `from` at which its torque is this one; looks up where it is less there, else down.
+SteadyWheel SteadyVehicles::free(std::size_t wheel, OperatingCondition at, double torque, double from) const {
+  SteadyWheel steady;
+  const auto missing = [&](double slip) {
+    at.slip = slip;
+    steady = rolled(wheel, at);
+    return steady.result.torque.value - torque;
+  };
+  double here = from, f = missing(here);
+  if (steady.lifted || f == 0.0) return steady;
+  const double direction = f < 0.0 ? 1.0 : -1.0, end = f < 0.0 ? 1.0 : most_braked;
+  for (double step = 0.01; here != end; step *= 1.5) {
+    const double next = direction > 0 ? std::min(here + step, end) : std::max(here - step, end);
+    const double g = missing(next);
+    if ((g < 0.0) != (f < 0.0) || g == 0.0) {
+      gsl::bracketed_root(missing, std::min(here, next), std::max(here, next), 1e-15,
+                          1e-15 * at.load * wheels_[wheel].scenario.tire.radius, "the slip at a torque");
+      return steady;
+    }
+    here = next, f = g;
+  }
+  throw VehicleGaveOut(GaveOut::wheel, wheel,
+                       torque == 0.0 ? "no slip at which it rolls freely" : "no slip gives its torque");
+}
+
+void SteadyVehicles::roll_axle(std::size_t axle, double slip, std::vector<OperatingCondition>& at,
+                               std::vector<SteadyWheel>& wheels) const {
+  const VehicleAxle& about = vehicle_.axles[axle];
+  std::vector<std::size_t> mine;
+  for (std::size_t i = 0; i < wheels_.size(); ++i)
+    if (wheels_[i].axle == axle) mine.push_back(i);
+  /// The slip at a rim speed `faster` times that of the drive line.
+  const auto slip_at = [&](std::size_t i, double faster) {
+    const double share = std::cos(at[i].yaw) / ((1.0 + about.lead) * faster);
+    return share == 1.0 ? slip : std::max(slip_of_ratio(speed_ratio(slip) * share), most_braked);
+  };
+  const auto roll = [&](std::size_t i, double faster) {
+    at[i].slip = slip_at(i, faster);
+    wheels[i] = rolled(i, at[i]);
+    return wheels[i].result.torque.value;
+  };
+  if (about.driven == YesNo::no) {
+    for (const std::size_t i : mine) wheels[i] = free(i, at[i], 0.0, 0.0);
+  } else if (vehicle_.drive_line == DriveLine::open_axles && mine.size() == 2) {
+    const std::size_t left = mine[0], right = mine[1];
+    if (at[left].load <= 0.0 || at[right].load <= 0.0) {  // a wheel in the air takes no torque, nor does the other
+      for (const std::size_t i : mine) wheels[i] = free(i, at[i], 0.0, 0.0);
+      return;
+    }
+    const auto unlike = [&](double d) { return roll(left, 1.0 + d) - roll(right, 1.0 - d); };
+    double here = 0.0, f = unlike(here);
+    if (f == 0.0) return;
+    constexpr double end = 0.999;
+    const double direction = f < 0.0 ? 1.0 : -1.0;
+    for (double step = 0.01; std::abs(here) < end; step *= 1.5) {
+      const double next = std::clamp(here + direction * step, -end, end), g = unlike(next);
+      if ((g < 0.0) != (f < 0.0) || g == 0.0) {
+        const double d = gsl::bracketed_root(unlike, std::min(here, next), std::max(here, next), 1e-15,
+                                             1e-15 * weight() * about.tire.radius, "the speeds at equal torque");
+        unlike(d);
+        return;
+      }
+      here = next, f = g;
+    }
+    throw VehicleGaveOut(GaveOut::wheel, direction > 0 ? left : right,
+                         "its differential turns it without end: it takes less torque than the other wheel");
+  } else {
+    for (const std::size_t i : mine)
+      if (roll(i, 1.0) > about.largest_torque.value_or(HUGE_VAL)) {
+        wheels[i] = free(i, at[i], *about.largest_torque, at[i].slip);
+        wheels[i].at_largest_torque = true;
+      }
+  }
+}
+
+SteadyVehicles::Trial SteadyVehicles::trial(const VehicleCondition& at, double slip, const Modes& m,
+                                            std::span<const double> x) const {
+  Trial trial;
+  SteadyVehicle& v = trial.vehicle;
+  v.at = at, v.slip = slip;
+  std::size_t next = 1;
+  const double pitched = m.pitches ? x[next++] : 0.0, rolled_over = m.rolls ? x[next++] : 0.0;
+  v.crab = m.crabs ? turn_of(x[next++]) : 0.0, v.steering = m.steers ? turn_of(x[next++]) : 0.0;
+  const double G = weight(), a = at.slope, b = at.cross_slope;
+  std::vector<OperatingCondition> conditions;
+  for (const VehicleWheel& wheel : wheels_) {
+    const VehicleAxle& axle = vehicle_.axles[wheel.axle];
+    double share = x[0];
+    if (m.pitches) share += pitched * (wheel.place.x - m.x0) / m.length;
+    if (m.rolls) share += rolled_over * (wheel.place.y - m.y0) / m.width;
+    const double load = G * (axle.stiffness.value_or(1.0) / m.stiffness) * share;
+    conditions.push_back({.load = load > lifts * G ? load : 0.0,
+                          .speed = at.speed,
+                          .longitudinal_incline = a,
+                          .transverse_incline = b,
+                          .yaw = v.crab + (axle.steered == YesNo::yes ? v.steering : 0.0),
+                          .pass = wheel.pass});
+  }
+  v.wheels.resize(wheels_.size());
+  for (std::size_t axle = 0; axle < vehicle_.axles.size(); ++axle) roll_axle(axle, slip, conditions, v.wheels);
+
+  double pull = 0.0, left = 0.0, load = 0.0;
+  std::vector<VehiclePoint> sunk;
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    const TractionResult& r = v.wheels[i].result;
+    pull += r.drawbar_pull.value, left += r.lateral_force.value, load += r.at.load;
+    if (!v.wheels[i].lifted) sunk.push_back({wheels_[i].place.x, wheels_[i].place.y, r.sinkage.value});
+  }
+  const double along = std::sin(a), across = std::cos(a) * std::sin(b), up = std::cos(a) * std::cos(b);
+  v.pull = (pull + (load - G) * along) / std::cos(vehicle_.hitch.angle);
+  if (!sunk.empty()) {
+    const SinkagePlane plane = plane_through(sunk);
+    v.nose_down = std::atan(plane.along), v.left_down = std::atan(plane.across);
+  }
+  const auto place = [&](const VehiclePoint& point) { return tilted(point, v.nose_down, v.left_down); };
+  const auto along_vehicle = [&](double forward, double to_left) {
+    return turned({forward, to_left}, v.crab, ForceFrame::travel, ForceFrame::wheel);
+  };
+  Wrench sum;
+  sum.add(place(vehicle_.centre_of_gravity), along_vehicle(-G * along, -G * across), -G * up);
+  sum.add(place(vehicle_.hitch.at), along_vehicle(-v.pull * std::cos(vehicle_.hitch.angle), 0.0),
+          -v.pull * std::sin(vehicle_.hitch.angle));
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    SteadyWheel& wheel = v.wheels[i];
+    const TractionResult& r = wheel.result;
+    wheel.normal_load = r.at.load * up;
+    const double forward = r.drawbar_pull.value + r.at.load * along, torque = r.torque.value;
+    const double turn = r.at.yaw - v.crab;
+    const GroundForce soil =
+        turned({forward, r.lateral_force.value + r.at.load * across}, r.at.yaw, ForceFrame::travel, ForceFrame::wheel);
+    const auto from_wheel = [&](const GroundForce& force) {
+      return turned(force, turn, ForceFrame::wheel, ForceFrame::travel);
+    };
+    VehiclePoint ground = wheels_[i].place;
+    ground.z = 0.0;
+    sum.add(place(wheels_[i].place), from_wheel({soil.forward, 0.0}), wheel.normal_load);
+    sum.add(place(ground), from_wheel({0.0, soil.left}), 0.0);
+    sum.pitch -= torque * std::cos(turn), sum.roll += torque * std::sin(turn);
+    if (wheel.lifted) continue;
+    const double in_plane = at.speed * std::cos(r.at.yaw), rim = torque / wheels_[i].scenario.tire.radius;
+    wheel.rim_speed = in_plane / speed_ratio(r.at.slip);
+    wheel.power_in = torque == 0.0 ? 0.0 : rim * wheel.rim_speed;
+    wheel.slip_loss = torque == 0.0 ? 0.0 : rim * (wheel.rim_speed - in_plane);
+    wheel.soil_loss = rim * in_plane - forward * at.speed;
+    v.power.into_wheels += wheel.power_in, v.power.slip_loss += wheel.slip_loss, v.power.soil_loss += wheel.soil_loss;
+  }
+  v.power.drawbar = v.pull * std::cos(vehicle_.hitch.angle) * at.speed, v.power.climbing = G * along * at.speed;
+  v.yaw_moment = sum.yaw;
+
+  trial.rest.push_back((load - G - v.pull * std::sin(vehicle_.hitch.angle) / up) / G);
+  if (m.pitches) trial.rest.push_back(sum.pitch / (G * m.length));
+  if (m.rolls) trial.rest.push_back(sum.roll / (G * m.width));
+  if (m.crabs) trial.rest.push_back((left + (load - G) * across) / G);
+  if (m.steers) trial.rest.push_back(sum.yaw / (G * m.length));
+  return trial;
+}
+
+double SteadyVehicles::fastest() const { return vehicle_.drive_line == DriveLine::open_axles ? 0.99 : 1.0; }
+
+SteadyVehicle SteadyVehicles::at_slip(const VehicleCondition& at, double slip) const {
+  const Modes m = modes(at);
+  std::vector<double> start(m.count(), 0.0);
+  start[0] = 1.0;
+  const gsl::SystemRoot root = gsl::system_root(
+      [&](std::span<const double> x, std::span<double> f) { std::ranges::copy(trial(at, slip, m, x).rest, f.begin()); },
+      std::move(start), aimed_residual);
+  SteadyVehicle found = trial(at, slip, m, root.x).vehicle;
+  if (root.residual <= good_residual) return found;
+  if (std::ranges::any_of(found.wheels, &SteadyWheel::lifted))
+    throw VehicleGaveOut(GaveOut::tips_over, std::nullopt, "it tips over");
+  throw VehicleGaveOut(GaveOut::slides, std::nullopt, "no balance of the forces across its travel: it slides");
+}
+
+SteadyVehicle SteadyVehicles::at_most(const VehicleCondition& at, bool braked) const {
+  const double sign = braked ? -1.0 : 1.0;
+  std::optional<VehicleGaveOut> said;
+  const auto height = [&](double slip) {
+    try {
+      return sign * at_slip(at, slip).pull;
+    } catch (const VehicleGaveOut& error) {
+      if (!said) said = error;
+      return -HUGE_VAL;
+    }
+  };
+  const double first = braked ? most_braked : 0.0, last = braked ? 0.0 : fastest();
+  std::vector<gsl::Sample> samples;
+  for (int i = 0; first + i * scanned_slip < last; ++i) samples.push_back({first + i * scanned_slip, 0.0});
+  samples.push_back({last, 0.0});
+  for (gsl::Sample& sample : samples) sample.f = height(sample.x);
+  const auto top = std::ranges::max_element(samples, {}, &gsl::Sample::f);
+  if (top->f == -HUGE_VAL) throw VehicleGaveOut(*said);
+  gsl::Sample best = *top;
+  const auto i = static_cast<std::size_t>(top - samples.begin());
+  if (i > 0 && i + 1 < samples.size()) {
+    const double floor = top->f - weight();  // where there is no balance
+    const auto finite_height = [&](double slip) { return std::max(height(slip), floor); };
+    best = gsl::bracketed_maximum(finite_height,
+                                  {{samples[i - 1].x, std::max(samples[i - 1].f, floor)},
+                                   best,
+                                   {samples[i + 1].x, std::max(samples[i + 1].f, floor)}},
+                                  1e-6, HUGE_VAL, "the slip of the largest pull");
+  }
+  return at_slip(at, best.x);
+}
+
+SteadyVehicle SteadyVehicles::pulling(const VehicleCondition& at) const {
+  const auto missing = [&](double slip) { return at_slip(at, slip).pull - at.pull; };
+  std::optional<VehicleGaveOut> said;
+  gsl::Sample before, first;
+  bool answered = false, ever = false;  // just before, and at any slip
+  const auto root = [&](double from, double to) {
+    const double slip = gsl::bracketed_root(missing, std::min(from, to), std::max(from, to), 1e-13, 1e-12 * weight(),
+                                            "the slip that gives a pull");
+    return at_slip(at, slip);
+  };
+  // From no slip outward: upward while it pulls too little, else downward.
+  double direction = 0.0;
+  for (int step = 0; scanned_slip * step <= (direction < 0.0 ? -most_braked : fastest()) + scanned_slip / 2; ++step) {
+    const double slip =
+        direction < 0.0 ? std::max(-step * scanned_slip, most_braked) : std::min(step * scanned_slip, fastest());
+    try {
+      const double f = missing(slip);
+      if (f == 0.0) return at_slip(at, slip);
+      if (answered && (before.f < 0.0) != (f < 0.0)) return root(before.x, slip);
+      before = {slip, f}, answered = true;
+      if (!ever) first = before, ever = true;
+      if (direction == 0.0) direction = f < 0.0 ? 1.0 : -1.0;
+    } catch (const VehicleGaveOut& error) {
+      if (!said) said = error;
+      answered = false;
+      if (direction == 0.0) direction = 1.0;
+    }
+  }
+  if (!ever) throw VehicleGaveOut(*said);
+  const bool braked = direction < 0.0;
+  const SteadyVehicle most = at_most(at, braked);  // it may lie between two of the slips above
+  if (first.f < 0.0 && most.pull >= at.pull) return root(first.x, most.slip);
+  if (first.f > 0.0 && most.pull <= at.pull) return root(first.x, most.slip);
+  if (said) throw VehicleGaveOut(*said);
+  throw VehicleGaveOut(braked ? GaveOut::hold : GaveOut::pull, weakest_wheel(most),
+                       braked ? "its braked wheels do not hold it" : "its wheels pull too little at every slip");
+}
+
+std::size_t weakest_wheel(const SteadyVehicle& vehicle) {
+  std::size_t weakest = 0;
+  const auto share = [](const SteadyWheel& wheel) {
+    return wheel.lifted ? -HUGE_VAL : wheel.result.drawbar_pull.value / wheel.result.at.load;
+  };
+  for (std::size_t i = 1; i < vehicle.wheels.size(); ++i)
+    if (share(vehicle.wheels[i]) < share(vehicle.wheels[weakest])) weakest = i;
+  return weakest;
+}
+
+}  // namespace soilbin::compare

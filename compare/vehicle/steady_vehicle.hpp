@@ -1,0 +1,130 @@
+// A vehicle that travels steadily on soil: the load, slip and forces of each wheel, the pull that is left at the hitch,
+// and where the power goes.
+//
+//   const SteadyVehicles truck(question, wheels, bekker_wong::BekkerWong({.errors = false, .patch = false}));
+//   const SteadyVehicle climbs = truck.pulling({.slope = 0.1, .speed = 2.0});       // [rad], [m/s]
+//   climbs.slip, climbs.wheels[0].result.at.load                                    // [-], [N]
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compare/vehicle/vehicle.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+
+/// What ended a vehicle's balance.
+enum class GaveOut {
+  wheel,      ///< the model has no answer for one of its wheels
+  pull,       ///< all its wheels together pull less than is asked of them, at every slip
+  hold,       ///< braked by its drive line it runs away downhill, at every slip
+  tips_over,  ///< it stands on the wheels of one side alone
+  slides,     ///< nothing balances the forces across its travel
+};
+
+/// There is no steady vehicle.
+class VehicleGaveOut : public NoSolution {
+ public:
+  VehicleGaveOut(GaveOut why, std::optional<std::size_t> wheel, const std::string& words)
+      : NoSolution(words), why_(why), wheel_(wheel) {}
+  GaveOut why() const { return why_; }
+  std::optional<std::size_t> wheel() const { return wheel_; }  ///< which wheel, where it is one
+
+ private:
+  GaveOut why_;
+  std::optional<std::size_t> wheel_;
+};
+
+/// A wheel of it.
+struct SteadyWheel {
+  TractionResult result{};         ///< as the model answers; `at` holds its load, slip, yaw and pass
+  double normal_load = 0.0;        ///< normal to the ground [N]
+  double rim_speed = 0.0;          ///< r w [m/s]
+  double power_in = 0.0;           ///< M w [W]
+  double slip_loss = 0.0;          ///< (M/r) (r w - v) [W], v: its speed in its own plane
+  double soil_loss = 0.0;          ///< (M/r) v less what pushes the vehicle along its travel, times its speed [W]
+  bool lifted = false;             ///< off the ground: no forces
+  bool at_largest_torque = false;  ///< its motor gives no more
+};
+
+/// Powers add up: into the wheels = drawbar + climbing + slip loss + soil loss.
+struct VehiclePower {
+  double into_wheels = 0.0;  ///< [W]
+  double drawbar = 0.0;      ///< pull times speed [W]
+  double climbing = 0.0;     ///< against gravity [W]; negative downhill
+  double slip_loss = 0.0;    ///< [W]
+  double soil_loss = 0.0;    ///< sinkage, bulldozing, drift of a wheel that stands across its travel [W]
+};
+
+struct SteadyVehicle {
+  VehicleCondition at{};    ///< its pull: what is asked, where that was asked
+  double slip = 0.0;        ///< of the drive line: by its mean rim speed
+  double pull = 0.0;        ///< left at the hitch, along travel [N]
+  double crab = 0.0;        ///< by which the vehicle points to the left of its travel [rad]
+  double steering = 0.0;    ///< of the steered axles, to the left of the vehicle [rad]
+  double yaw_moment = 0.0;  ///< that nothing balances: a driver's hand must [N m], to the left positive
+  double nose_down = 0.0;   ///< of the vehicle against the ground, by its wheels' sinkages [rad]
+  double left_down = 0.0;   ///< [rad]
+  std::vector<SteadyWheel> wheels{};
+  VehiclePower power{};
+};
+
+/// A vehicle's steady states. A rigid frame on springs alike, or of the stiffness that the axles declare, so that the
+/// loads lie in a plane over the wheels' places,
+///
+///   L_i = k_i (a + b x_i + c y_i) [N],  L_i >= 0,
+///
+/// with a, b, c from the balance of forces and moments. On the vehicle act its weight at the centre of gravity, the
+/// pull at the hitch, and from the soil the model's answer for each wheel: at the axle's end the load, the force in the
+/// wheel's plane and the couple -M_i, at the tread's lowest point the force across the wheel. So resistance and sinkage
+/// shift loads by what they do to torque and pull, and unlike sinkages tilt the vehicle. The moment of the soil about a
+/// wheel's upright (self-aligning) is left out. Of two axles with wheels on both sides this gives the textbook's loads
+/// (Wong, Theory of Ground Vehicles, ch. 3). On a cross slope the vehicle crabs, and steered axles turn, until nothing
+/// is left across its travel. Wheels in one axle alone keep their pitch as in a rig, and those in one track their roll.
+/// Solved by gsl::system_root for each slip of the drive line.
+class SteadyVehicles {
+ public:
+  /// What is referred to must outlive this. `model` answers for one wheel.
+  SteadyVehicles(const VehicleCase& vehicle, const std::vector<VehicleWheel>& wheels, const Model& model)
+      : vehicle_(vehicle), wheels_(wheels), model_(model) {}
+
+  /// At a slip of the drive line, -1 < slip <= 1: the pull is what is left; that of the condition isn't read. Throws
+  /// VehicleGaveOut.
+  SteadyVehicle at_slip(const VehicleCondition& at, double slip) const;
+
+  /// The smallest slip at which it pulls what the condition asks; braked by its drive line where it would run away.
+  /// Throws VehicleGaveOut.
+  SteadyVehicle pulling(const VehicleCondition& at) const;
+
+  /// Where it pulls most, or, `braked`, least. Slips without a balance are passed over; throws what the first said
+  /// where there is no other.
+  SteadyVehicle at_most(const VehicleCondition& at, bool braked = false) const;
+
+  /// Weight on the soil's gravity [N].
+  double weight() const;
+
+ private:
+  struct Trial;
+  struct Modes;
+  Modes modes(const VehicleCondition& at) const;
+  /// The largest slip that is looked at. At 100 % a drive line turns without end: across an open axle no wheel could
+  /// then turn slower than the other.
+  double fastest() const;
+  Trial trial(const VehicleCondition& at, double slip, const Modes& modes, std::span<const double> x) const;
+  SteadyWheel rolled(std::size_t wheel, const OperatingCondition& at) const;
+  SteadyWheel free(std::size_t wheel, OperatingCondition at, double torque, double from) const;
+  void roll_axle(std::size_t axle, double slip, std::vector<OperatingCondition>& at,
+                 std::vector<SteadyWheel>& wheels) const;
+
+  const VehicleCase& vehicle_;
+  const std::vector<VehicleWheel>& wheels_;
+  const Model& model_;
+};
+
+/// The wheel that gives least for its load: the one to look at where the pull of all is too little.
+std::size_t weakest_wheel(const SteadyVehicle& vehicle);
+
+}  // namespace soilbin::compare

@@ -1,0 +1,130 @@
+#include "compare/vehicle/vehicle.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "scenario/effect_choices.hpp"
+#include "scenario/mapping_reader.hpp"
+#include "scenario/named_parts.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// Whether the wheels of a vehicle stand in more than one place along an axis.
+bool spread(const std::vector<VehicleWheel>& wheels, double VehiclePoint::*axis) {
+  return std::ranges::any_of(
+      wheels, [&](const VehicleWheel& wheel) { return std::abs(wheel.place.*axis - wheels[0].place.*axis) > 1e-9; });
+}
+
+/// Whether the wheels stand in one slanting line: then nothing tells how the vehicle stands on it.
+bool in_a_slanting_line(const std::vector<VehicleWheel>& wheels) {
+  if (!spread(wheels, &VehiclePoint::x) || !spread(wheels, &VehiclePoint::y)) return false;
+  const auto far = std::ranges::max_element(wheels, {}, [&](const VehicleWheel& wheel) {
+    return std::hypot(wheel.place.x - wheels[0].place.x, wheel.place.y - wheels[0].place.y);
+  });
+  const double along = far->place.x - wheels[0].place.x, across = far->place.y - wheels[0].place.y;
+  return std::ranges::all_of(wheels, [&](const VehicleWheel& wheel) {
+    return std::abs((wheel.place.x - wheels[0].place.x) * across - (wheel.place.y - wheels[0].place.y) * along) < 1e-9;
+  });
+}
+
+VehicleAxle read_axle(const YamlNode& node, std::size_t number, const Library& library, const Reading& reading) {
+  VehicleAxle axle = read_mapping<VehicleAxle>(node, reading, {"tire"});
+  axle.tire =
+      read_tire_part(*value_of(node, "tire", Need::required, "a mapping, a name of the library, or a path", reading),
+                     library, reading);
+  if (axle.name.empty()) axle.name = fmt::format("axle {}", number);
+  return axle;
+}
+
+}  // namespace
+
+std::string contradiction(const VehicleCase& vehicle) {
+  if (vehicle.axles.empty()) return "";  // they are read after the rest
+  if (std::ranges::none_of(vehicle.axles, [](const VehicleAxle& axle) { return axle.driven == YesNo::yes; }))
+    return "no axle is driven";
+  const auto stiff = [](const VehicleAxle& axle) { return axle.stiffness.has_value(); };
+  if (std::ranges::any_of(vehicle.axles, stiff) && !std::ranges::all_of(vehicle.axles, stiff))
+    return "some axles have a stiffness and others none: give it for all, or for none";
+  for (const VehicleAxle& axle : vehicle.axles) {
+    if (axle.largest_torque && vehicle.drive_line != DriveLine::motors)
+      return fmt::format("axle '{}' has a largest_torque, which belongs to the drive_line 'motors'", axle.name);
+    if (axle.largest_torque && axle.driven == YesNo::no)
+      return fmt::format("axle '{}' has a largest_torque and is not driven", axle.name);
+    if (std::ranges::count(vehicle.axles, axle.name, &VehicleAxle::name) > 1)
+      return fmt::format("two axles are called '{}'", axle.name);
+  }
+  if (in_a_slanting_line(wheels_of(vehicle))) return "all wheels stand in one slanting line, on which nothing stands";
+  return "";
+}
+
+VehicleCase parse_vehicle_case(const SourceText& source, const Library& library, const EffectVocabulary& effects) {
+  const YamlNode document = parse_yaml(source);
+  Reading reading{&source, std::nullopt, nullptr, ""};
+  expect_format(document, vehicle_case_format, reading);
+  VehicleCase vehicle = read_mapping<VehicleCase>(document, reading, {"format", "axles", "soil", "effects"});
+  const Library near = library.beside(source.file);
+  const YamlNode& soil =
+      *value_of(document, "soil", Need::required, "a mapping, a name of the library, or a path", reading);
+  vehicle.soil = read_soil_part(soil, near, reading);
+  if (!vehicle.soil.semi_empirical)
+    reading.refuse(soil, fmt::format("a vehicle needs the soil's 'semi_empirical' section; '{}' has none",
+                                     clipped(vehicle.soil.name)));
+  reading.n = vehicle.soil.semi_empirical->exponent.value;
+  const YamlNode& axles = *value_of(document, "axles", Need::required, "list of axles", reading);
+  if (!axles.is_sequence()) reading.refuse(axles, "expected a list of axles, not " + axles.kind_name());
+  for (const YamlNode& axle : axles.items)
+    vehicle.axles.push_back(read_axle(axle, vehicle.axles.size() + 1, near, reading));
+  if (vehicle.axles.empty()) reading.refuse(axles, "the list of axles is empty");
+  if (const YamlNode* list = value_of(document, "effects", Need::optional, "list of effects; [] for none", reading))
+    vehicle.effects = read_effects(*list, effects, reading);
+  if (const std::string wrong = contradiction(vehicle); !wrong.empty()) reading.refuse(axles, wrong);
+  return vehicle;
+}
+
+std::vector<VehicleWheel> wheels_of(const VehicleCase& vehicle) {
+  std::vector<VehicleWheel> wheels;
+  for (std::size_t i = 0; i < vehicle.axles.size(); ++i) {
+    const VehicleAxle& axle = vehicle.axles[i];
+    const auto add = [&](const std::string& name, double y) {
+      wheels.push_back({name, i, {axle.x, y, axle.tire.radius}, 1, {axle.tire, vehicle.soil, {}, vehicle.effects}});
+    };
+    if (axle.track) {
+      add(axle.name + " left", axle.y + *axle.track / 2);
+      add(axle.name + " right", axle.y - *axle.track / 2);
+    } else {
+      add(axle.name, axle.y);
+    }
+  }
+  std::ranges::stable_sort(wheels, [](const VehicleWheel& a, const VehicleWheel& b) { return a.place.x > b.place.x; });
+  for (VehicleWheel& wheel : wheels)
+    for (const VehicleWheel& before : wheels)
+      wheel.pass += before.place.x > wheel.place.x + 1e-9 &&
+                    std::abs(before.place.y - wheel.place.y) < before.scenario.tire.width / 2;
+  return wheels;
+}
+
+Doubts declare_tires(std::vector<VehicleWheel>& wheels, const TireLeftOut& left_out) {
+  Doubts told;
+  std::vector<std::string> names;
+  for (VehicleWheel& wheel : wheels) {
+    Case question;
+    question.scenario = wheel.scenario;
+    question.scenario.effects.clear();
+    question.study.models.emplace_back().effects = wheel.scenario.effects;
+    label_models(question.study.models);
+    question.study.conditions.push_back({.load = 1.0, .pass = wheel.pass});
+    Doubts doubts = as_declared(question, left_out);
+    wheel.scenario.tire = question.scenario.tire;
+    wheel.scenario.effects = question.study.models.front().effects;
+    if (std::ranges::find(names, wheel.scenario.tire.name) != names.end()) continue;
+    names.push_back(wheel.scenario.tire.name);
+    std::ranges::move(doubts, std::back_inserter(told));
+  }
+  return told;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,159 @@
+// A vehicle as the soil meets it, and its file, soilbin-vehicle-case/1 (docs/guide/vehicle.md): axles with their tires,
+// mass and where it is, drive line, hitch; on a soil, in a condition.
+//
+//   const VehicleCase truck = parse_vehicle_case(source, library, effects);
+//   for (const VehicleWheel& wheel : wheels_of(truck)) fmt::print("{} at {:.2f} m\n", wheel.name, wheel.place.x);
+#pragma once
+
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "compare/doubts/declared_tire.hpp"
+#include "scenario/case.hpp"
+
+namespace soilbin::compare {
+
+/// A point of the vehicle [m]: x forward, y to the left, z up from the plane below all wheels, where its tread bases
+/// touch hard level ground.
+struct VehiclePoint {
+  double x = 0.0, y = 0.0, z = 0.0;
+};
+
+/// How the engine's rotation reaches the driven wheels.
+enum class DriveLine {
+  locked,      ///< every driven wheel has the same rim speed, but for its axle's lead
+  open_axles,  ///< the axles have the same mean rim speed; across an axle the torque is the same
+  motors,      ///< a motor a wheel: one rim speed is asked of all, and each gives no more than its largest torque
+};
+enum class YesNo { no, yes };
+
+constexpr std::array<Word<DriveLine>, 3> words_of(std::type_identity<DriveLine>) {
+  return {{{"locked", DriveLine::locked}, {"open_axles", DriveLine::open_axles}, {"motors", DriveLine::motors}}};
+}
+constexpr std::array<Word<YesNo>, 2> words_of(std::type_identity<YesNo>) {
+  return {{{"no", YesNo::no}, {"yes", YesNo::yes}}};
+}
+
+/// Two wheels beside each other, or one.
+struct VehicleAxle {
+  std::string name{};
+  double x = 0.0;                          ///< [m]
+  double y = 0.0;                          ///< of its middle [m]
+  std::optional<double> track{};           ///< between the middles of its two wheels [m], > 0; absent: it has one wheel
+  YesNo driven = YesNo::yes;               ///< no: its wheels roll freely
+  YesNo steered = YesNo::no;               ///< whether it may be turned to keep the vehicle on its line
+  double lead = 0.0;                       ///< its rim speed over that of the drive line, less 1 [-], > -1
+  std::optional<double> largest_torque{};  ///< of a wheel's motor [N m], > 0
+  std::optional<double> stiffness{};       ///< of a wheel's suspension and tire [N/m], > 0; absent: all are alike
+  Tire tire{};
+};
+
+/// Where what is pulled is hooked on.
+struct VehicleHitch {
+  VehiclePoint at{};
+  double angle = 0.0;  ///< of the pull below the ground's plane [rad]: positive presses the vehicle down
+};
+
+/// Where the vehicle is and what it is to do.
+struct VehicleCondition {
+  double slope = 0.0;        ///< [rad], uphill along its travel positive
+  double cross_slope = 0.0;  ///< [rad], left side up positive
+  double speed = 1.0;        ///< of travel [m/s], > 0
+  double pull = 0.0;         ///< of the drawbar [N]: what the vehicle pulls behind it
+};
+
+/// A vehicle on a soil.
+struct VehicleCase {
+  std::string name{}, source{};
+  double mass = 0.0;  ///< [kg], > 0
+  VehiclePoint centre_of_gravity{};
+  DriveLine drive_line = DriveLine::locked;
+  std::optional<double> power{};  ///< that reaches the wheels at most [W], > 0
+  std::vector<VehicleAxle> axles{};
+  VehicleHitch hitch{};
+  Soil soil{};
+  std::vector<EffectChoice> effects{};
+  VehicleCondition condition{};
+};
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<VehiclePoint>) {
+  v.number("x", &VehiclePoint::x, Measure{"m", any_value}, Need::optional, "forward");
+  v.number("y", &VehiclePoint::y, Measure{"m", any_value}, Need::optional, "to the left of the vehicle's middle");
+  v.number("z", &VehiclePoint::z, Measure{"m", zero_or_more}, Need::optional, "height over hard level ground");
+}
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<VehicleAxle>) {
+  using A = VehicleAxle;
+  v.text("name", &A::name, Need::optional, "what to call the axle");
+  v.number("x", &A::x, Measure{"m", any_value}, Need::required, "its place, forward");
+  v.number("y", &A::y, Measure{"m", any_value}, Need::optional, "its middle, to the left");
+  v.number("track", &A::track, Measure{"m", above_zero}, Need::optional,
+           "between the middles of its two wheels; absent: it has one wheel");
+  v.choice("driven", &A::driven, Need::optional, "no: its wheels roll freely");
+  v.choice("steered", &A::steered, Need::optional, "whether it is turned to keep the vehicle on its line");
+  v.number("lead", &A::lead, Measure{"-", {.lower = -1.0, .lower_open = true}}, Need::optional,
+           "by how much its rim is faster than the drive line's");
+  v.number("largest_torque", &A::largest_torque, Measure{"N m", above_zero}, Need::optional,
+           "of a wheel's motor, with the drive line 'motors'");
+  v.number("stiffness", &A::stiffness, Measure{"kN/m", above_zero}, Need::optional,
+           "of a wheel's spring and tire; absent: all are alike");
+}
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<VehicleHitch>) {
+  v.group("at", &VehicleHitch::at, Need::required, "the point where the pull acts");
+  v.number("angle", &VehicleHitch::angle, Measure{"deg", inclines}, Need::optional,
+           "of the pull below the ground's plane");
+}
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<VehicleCondition>) {
+  using C = VehicleCondition;
+  v.number("slope", &C::slope, Measure{"deg", inclines}, Need::optional, "uphill positive");
+  v.number("cross_slope", &C::cross_slope, Measure{"deg", inclines}, Need::optional, "left side up positive");
+  v.number("speed", &C::speed, Measure{"m/s", above_zero}, Need::optional, "of travel");
+  v.number("pull", &C::pull, Measure{"N", any_value}, Need::optional, "that the vehicle pulls behind it");
+}
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<VehicleCase>) {
+  using V = VehicleCase;
+  v.text("name", &V::name, Need::required, "what to call the vehicle");
+  v.text("source", &V::source, Need::optional, "where it is described");
+  v.number("mass", &V::mass, Measure{"kg", above_zero}, Need::required, "of the whole vehicle, loaded");
+  v.group("centre_of_gravity", &V::centre_of_gravity, Need::required, "where its weight acts");
+  v.choice("drive_line", &V::drive_line, Need::optional, "how the wheels are driven");
+  v.number("power", &V::power, Measure{"kW", above_zero}, Need::optional, "that reaches the wheels at most");
+  v.group("hitch", &V::hitch, Need::optional, "where what is pulled is hooked on; absent: on the ground, at x = 0");
+  v.group("condition", &V::condition, Need::optional, "slope, speed and pull");
+}
+
+std::string contradiction(const VehicleCase& vehicle);
+
+inline constexpr const char* vehicle_case_format = "soilbin-vehicle-case/1";
+
+/// Reads a vehicle on a soil. Tires and soil are named or written out as in a case. Throws InputError with file, line,
+/// column and hint.
+VehicleCase parse_vehicle_case(const SourceText& source, const Library& library, const EffectVocabulary& effects);
+
+/// A wheel of a vehicle.
+struct VehicleWheel {
+  std::string name{};  ///< "front left"
+  std::size_t axle = 0;
+  VehiclePoint place{};  ///< its axle's end: z is the tire's radius
+  int pass = 1;          ///< 1 and the wheels that rolled in its rut before
+  Scenario scenario{};   ///< its tire on the soil, with the vehicle's effects and those that its tire declares
+};
+
+/// Its wheels from the front to the rear, the left one first. A wheel is in the rut of one before it where less than
+/// half of its width lies beside that one's.
+std::vector<VehicleWheel> wheels_of(const VehicleCase& vehicle);
+
+/// Effects that the tires declare, as `estimate` takes them, and what is told of it. The effects are of the wheels.
+Doubts declare_tires(std::vector<VehicleWheel>& wheels, const TireLeftOut& left_out = {});
+
+}  // namespace soilbin::compare

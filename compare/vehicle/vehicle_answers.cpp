@@ -1,0 +1,171 @@
+#include "compare/vehicle/vehicle_answers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "compare/vehicle/doubtful_numbers.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+constexpr double steepest_asked = 1.2;  // [rad] 69 deg
+
+VehicleFailure as_failure(const VehicleGaveOut& error) {
+  return {error.why(), error.wheel(), error.why() == GaveOut::wheel ? error.what() : ""};
+}
+
+/// What is told of a vehicle, as numbers.
+using Numbers = std::vector<double>;
+using NumbersOf = std::function<Numbers(const std::vector<VehicleWheel>&)>;
+
+/// Standard errors of numbers, to first order: central differences over a thousandth of each standard deviation, the
+/// doubtful values taken as independent. Not a number where a vehicle beside this one has no balance.
+Numbers errors_of(const std::vector<VehicleWheel>& wheels, std::size_t count, const NumbersOf& numbers) {
+  constexpr double share_of_sd = 1e-3, least = 1e-6, most = 1e-2;
+  Numbers variance(count, 0.0);
+  for (const DoubtfulNumber& one : doubtful_numbers(wheels)) {
+    const double size = std::abs(one.value);
+    const double step = size > 0.0 ? std::clamp(share_of_sd * one.sd, least * size, most * size) : share_of_sd * one.sd;
+    const Neighbours beside = neighbours(one.value, step, one.range);
+    const auto with = [&](double value) { return numbers(one.in(wheels, value)); };
+    try {
+      const Numbers below = with(beside.below), above = with(beside.above);
+      for (std::size_t i = 0; i < count; ++i)
+        variance[i] += std::pow((above[i] - below[i]) / (beside.above - beside.below) * one.sd, 2);
+    } catch (const NoSolution&) {
+      return Numbers(count, not_a_number);
+    }
+  }
+  for (double& one : variance) one = std::sqrt(one);
+  return variance;
+}
+
+Numbers steady_numbers(const SteadyVehicle& vehicle) {
+  Numbers all = {vehicle.slip, vehicle.pull, vehicle.power.into_wheels};
+  for (const SteadyWheel& wheel : vehicle.wheels) {
+    const TractionResult& r = wheel.result;
+    for (const double one : {wheel.normal_load, r.at.slip, r.drawbar_pull.value, r.torque.value, r.sinkage.value})
+      all.push_back(one);
+  }
+  return all;
+}
+
+SteadyErrors errors_from(const Numbers& errors) {
+  SteadyErrors all{errors[0], errors[1], errors[2], {}};
+  for (std::size_t i = 3; i + 4 < errors.size(); i += 5)
+    all.wheels.push_back({errors[i], errors[i + 1], errors[i + 2], errors[i + 3], errors[i + 4]});
+  return all;
+}
+
+/// Which way a slope is steep.
+enum class Way { up, down, across };
+
+VehicleCondition on(const VehicleCondition& asked, Way way, double angle) {
+  VehicleCondition at = asked;
+  at.slope = way == Way::up ? angle : way == Way::down ? -angle : 0.0;
+  at.cross_slope = way == Way::across ? angle : 0.0;
+  return at;
+}
+
+VehicleLimit steepest(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model,
+                      Way way) {
+  const SteadyVehicles vehicles(question, wheels, model);
+  const bool braked = way == Way::down;
+  const double sign = braked ? -1.0 : 1.0, none = -vehicles.weight();
+  VehicleLimit limit;
+  const auto spare = [&](double angle) {
+    const VehicleCondition at = on(question.condition, way, angle);
+    try {
+      return std::max(sign * (vehicles.at_most(at, braked).pull - at.pull), none);
+    } catch (const VehicleGaveOut& error) {
+      limit.beyond = as_failure(error);
+      return none;
+    }
+  };
+  const double level = spare(0.0);
+  double low = level >= 0.0 ? 0.0 : -steepest_asked, high = level >= 0.0 ? steepest_asked : 0.0;
+  if (way == Way::across && level < 0.0) return limit;
+  if (level < 0.0 && spare(low) < 0.0) return limit;
+  if (level >= 0.0 && spare(high) >= 0.0) return limit;
+  // By bisection: the spare pull ends at once where the vehicle tips over or slides.
+  constexpr double close = 1e-6;
+  double at_low = level >= 0.0 ? level : spare(low), at_high = none;
+  while (high - low > close) {
+    // Where the pull ends smoothly, as a rule the chord is near; else halves.
+    const double chord = at_high > none ? low + (high - low) * at_low / (at_low - at_high) : 0.5 * (low + high);
+    const double margin = 0.1 * (high - low), middle = std::clamp(chord, low + margin, high - margin);
+    const double f = spare(middle);
+    if (f >= 0.0)
+      low = middle, at_low = f;
+    else
+      high = middle, at_high = f;
+  }
+  const SteadyVehicle last = vehicles.at_most(on(question.condition, way, low), braked);
+  limit.slip = last.slip;
+  limit.angle = Estimate{low, not_a_number};
+  if (at_high == none) {
+    if (spare(high) == none && limit.beyond.why == GaveOut::tips_over) limit.angle->std_error = 0.0;
+    return limit;
+  }
+  limit.beyond = {braked ? GaveOut::hold : GaveOut::pull, weakest_wheel(last), ""};
+  // The largest pull changes with soil and slope as the pull at its slip does (the envelope theorem).
+  constexpr double step = 1e-4;
+  try {
+    const double rise = (vehicles.at_slip(on(question.condition, way, low + step), last.slip).pull -
+                         vehicles.at_slip(on(question.condition, way, low - step), last.slip).pull) /
+                        (2 * step);
+    const Numbers error = errors_of(wheels, 1, [&](const std::vector<VehicleWheel>& changed) {
+      const SteadyVehicles other(question, changed, model);
+      return Numbers{other.at_slip(on(question.condition, way, low), last.slip).pull};
+    });
+    limit.angle->std_error = error[0] / std::abs(rise);
+  } catch (const VehicleGaveOut&) {  // it ends beside: no error
+  }
+  return limit;
+}
+
+}  // namespace
+
+std::array<VehicleLimit, 3> steepest_slopes(const VehicleCase& question, const std::vector<VehicleWheel>& wheels,
+                                            const Model& model) {
+  return {steepest(question, wheels, model, Way::up), steepest(question, wheels, model, Way::down),
+          steepest(question, wheels, model, Way::across)};
+}
+
+VehicleAnswers answers_of(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model) {
+  if (!question.soil.semi_empirical)
+    throw InputError("soil '" + question.soil.name + "' has no semi_empirical values, which a vehicle needs");
+  VehicleAnswers answers{question, wheels};
+  const SteadyVehicles vehicles(question, wheels, model);
+  const VehicleCondition& at = question.condition;
+  const std::size_t count = 3 + 5 * wheels.size();
+  try {
+    answers.steady = vehicles.pulling(at);
+    answers.errors = errors_from(errors_of(wheels, count, [&](const std::vector<VehicleWheel>& changed) {
+      return steady_numbers(SteadyVehicles(question, changed, model).pulling(at));
+    }));
+    if (question.power && answers.steady->power.into_wheels > 0.0)
+      answers.power_speed = *question.power * at.speed / answers.steady->power.into_wheels;
+  } catch (const VehicleGaveOut& error) {
+    answers.failure = as_failure(error);
+  }
+  for (const int percent : {0, 5, 10, 15, 20, 25, 30, 40, 50, 60, 70, 80, 90}) {
+    VehiclePullRow row{percent / 100.0};
+    try {
+      row.vehicle = vehicles.at_slip(at, row.slip);
+      row.pull_error = errors_of(wheels, 1, [&](const std::vector<VehicleWheel>& changed) {
+        return Numbers{SteadyVehicles(question, changed, model).at_slip(at, row.slip).pull};
+      })[0];
+    } catch (const VehicleGaveOut& error) {
+      row.failure = as_failure(error);
+    }
+    answers.pulls.push_back(std::move(row));
+  }
+  const auto [up, down, across] = steepest_slopes(question, wheels, model);
+  answers.up = up, answers.down = down, answers.across = across;
+  return answers;
+}
+
+}  // namespace soilbin::compare

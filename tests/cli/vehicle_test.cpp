@@ -1,0 +1,69 @@
+// soilbin vehicle: a vehicle of the library as text and JSON, one that does not travel, and what checks its file.
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "tests/cli/command.hpp"
+
+namespace soilbin::cli::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::string rover = "'" SOILBIN_SOURCE_DIR "/cases/vehicles/rover.yaml'";
+
+TEST(VehicleCommand, TellsWhatTheRoverDoes) {
+  const Outcome run = soilbin("vehicle " + rover);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("travels: its drive line slips by"), HasSubstr("Steepest slopes"),
+                             HasSubstr("front left"), HasSubstr("ground pressure"), HasSubstr("Add multipass")));
+}
+
+TEST(VehicleCommand, SaysWhyAndWhereItDoesNotTravel) {
+  const Outcome steep = soilbin("vehicle " + rover + " --slope 40deg --json");
+  EXPECT_EQ(steep.status, 1);
+  EXPECT_THAT(steep.err, HasSubstr("does not travel"));
+  const auto answer = steep.json();
+  EXPECT_EQ(answer.at("format"), "soilbin-vehicle-answer/1");
+  EXPECT_TRUE(answer.at("steady").is_null());
+  EXPECT_EQ(answer.at("failure").at("why"), "pull");
+  EXPECT_GT(answer.at("steepest").at("up").at("slope").at("value").get<double>(), 0.3);
+}
+
+TEST(VehicleCommand, GivesEveryWheelsNumbersInJson) {
+  const auto answer = soilbin("vehicle " + rover + " --soil dry-sand --pull 20N --json").json();
+  const auto& steady = answer.at("steady");
+  EXPECT_NEAR(steady.at("pull").get<double>(), 20.0, 1e-6);
+  double pull = 0.0, load = 0.0;
+  for (const auto& wheel : steady.at("wheels")) {
+    pull += wheel.at("drawbar_pull").at("value").get<double>(), load += wheel.at("load").get<double>();
+    EXPECT_GT(wheel.at("ground_pressure").get<double>(), 0.0);
+  }
+  EXPECT_NEAR(pull, 20.0, 1e-6);
+  EXPECT_NEAR(load, 73.4 * 9.80665, 1e-6);
+}
+
+TEST(SlowVehicleCommand, SavesTheChanceToGo) {
+  const Scratch scratch;
+  const std::string file = (scratch / "map.csv").string();
+  const Outcome run = soilbin("vehicle " + rover + " --samples 2 --map '" + file + "' --json");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto map = run.json().at("map");
+  EXPECT_EQ(map.at("samples"), 2);
+  EXPECT_GE(map.at("chance")[0][0].at("value").get<double>(), map.at("chance")[7][0].at("value").get<double>());
+  EXPECT_THAT(text_of(file), testing::StartsWith("slope_deg,heading_deg,chance,chance_se\n0,0,"));
+  EXPECT_EQ(soilbin("vehicle " + rover + " --samples 4").status, 2);
+}
+
+TEST(VehicleCommand, ItsFileIsChecked) {
+  EXPECT_THAT(soilbin("check " + rover).out, HasSubstr("valid: vehicle 'rover': 2 axles on"));
+  const Scratch scratch;
+  const std::string file = scratch.write("bad.yaml", "format: soilbin-vehicle-case/1\nname: x\nmas: 3 kg\n").string();
+  const Outcome run = soilbin("vehicle '" + file + "'");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("bad.yaml:3"), HasSubstr("mass")));
+}
+
+}  // namespace
+}  // namespace soilbin::cli::test

@@ -1,0 +1,204 @@
+// What a vehicle can do at best, with errors; its file; and NASA's points of a rover on slopes.
+#include "compare/vehicle/vehicle_answers.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "bekker_wong/effect_vocabulary.hpp"
+#include "bekker_wong/gsl.hpp"
+#include "bekker_wong/model.hpp"
+#include "compare/sweep/wheel_limits.hpp"
+#include "scenario/soil_parameters.hpp"
+#include "scenario/unit.hpp"
+#include "scenario/yaml_node.hpp"
+
+namespace soilbin::compare::test {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string cases_folder = SOILBIN_SOURCE_DIR "/cases";
+const bekker_wong::BekkerWong wheel_model({.errors = false, .patch = false});
+
+VehicleCase vehicle_of(const std::string& text) {
+  return parse_vehicle_case({cases_folder + "/vehicles/here.yaml", text}, Library({cases_folder}),
+                            bekker_wong::CatalogueVocabulary());
+}
+
+VehicleCase library_vehicle(const std::string& name) {
+  return parse_vehicle_case(read_source_text(cases_folder + "/vehicles/" + name + ".yaml", largest_yaml),
+                            Library({cases_folder}), bekker_wong::CatalogueVocabulary());
+}
+
+const std::string one_wheel = R"(format: soilbin-vehicle-case/1
+name: one wheel
+mass: 6.6 kg
+centre_of_gravity: {x: 0 m, z: 0.2 m}
+axles:
+  - {name: wheel, x: 0 m, tire: rover-wheel}
+soil: dry-sand
+)";
+
+std::string message_of(const std::string& text) {
+  try {
+    vehicle_of(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "it was read";
+}
+
+std::string changed(const std::string& from, const std::string& to) {
+  std::string text = one_wheel;
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(VehicleFile, IsRefusedWithItsPlaceAndTheRightWord) {
+  EXPECT_THAT(message_of(changed("mass: 6.6 kg", "mass: 6.6")),
+              testing::AllOf(HasSubstr("here.yaml:3"), HasSubstr("mass")));
+  EXPECT_THAT(message_of(changed("tire: rover-wheel", "tyre: rover-wheel")), HasSubstr("tire"));
+  EXPECT_THAT(message_of(changed("tire: rover-wheel", "tire: rover-wheal")), HasSubstr("rover-wheel"));
+  EXPECT_THAT(message_of(changed("tire: rover-wheel", "driven: no, tire: rover-wheel")),
+              HasSubstr("no axle is driven"));
+  EXPECT_THAT(message_of(changed("tire: rover-wheel", "largest_torque: 3 N m, tire: rover-wheel")),
+              HasSubstr("motors"));
+  EXPECT_THAT(message_of(changed("soil: dry-sand", "soil: nakanishi-sand")), HasSubstr("semi_empirical"));
+  EXPECT_THAT(message_of(one_wheel + "drive_line: open\n"), HasSubstr("open_axles"));
+}
+
+TEST(VehicleFile, OfTheLibraryIsRead) {
+  for (const char* name : {"truck", "tractor", "rover"}) {
+    const VehicleCase vehicle = library_vehicle(name);
+    EXPECT_EQ(vehicle.name, name);
+    EXPECT_EQ(wheels_of(vehicle).size(), 4u);
+  }
+  // 40 % of the tractor's weight stands on its front axle: 1.06 m of 2.65 m.
+  EXPECT_NEAR(library_vehicle("tractor").centre_of_gravity.x / 2.65, 0.40, 1e-12);
+}
+
+TEST(VehicleAnswers, OfOneWheelAreThoseOfLimits) {
+  const VehicleCase vehicle = vehicle_of(one_wheel);
+  const auto wheels = wheels_of(vehicle);
+  const VehicleLimit up = steepest_slopes(vehicle, wheels, wheel_model)[0];
+  const double load = SteadyVehicles(vehicle, wheels, wheel_model).weight();
+  const auto alone = steepest_slope(wheels[0].scenario, {.load = load, .speed = 1.0});
+  ASSERT_TRUE(up.angle && alone);
+  EXPECT_NEAR(up.angle->value, alone->value, 2e-6);
+  EXPECT_NEAR(up.angle->std_error, alone->std_error, 1e-2 * alone->std_error);
+  EXPECT_EQ(up.beyond.why, GaveOut::pull);
+}
+
+TEST(VehicleAnswers, HaveTheErrorsOfTheWheelsThatPullTogether) {
+  // The errors of four wheels on one soil are one error: the pull's is four times that of a wheel.
+  VehicleCase vehicle = vehicle_of(one_wheel);
+  const auto one = wheels_of(vehicle);
+  const Estimate alone =
+      bekker_wong::BekkerWong({.errors = true, .patch = false})
+          .evaluate(one[0].scenario,
+                    {.load = SteadyVehicles(vehicle, one, wheel_model).weight(), .slip = 0.3, .speed = 1.0})
+          .drawbar_pull;
+  const VehicleAnswers answers = answers_of(vehicle, one, wheel_model);
+  for (const VehiclePullRow& row : answers.pulls)
+    if (row.slip == 0.3) {
+      EXPECT_NEAR(row.vehicle->pull, alone.value, 1e-9);
+      EXPECT_NEAR(row.pull_error, alone.std_error, 1e-3 * alone.std_error);
+    }
+  ASSERT_TRUE(answers.steady);
+  EXPECT_NEAR(answers.steady->pull, 0.0, 1e-9);
+  EXPECT_GT(answers.errors.slip, 0.0);
+}
+
+TEST(SlowVehicleAnswers, AHighNarrowVehicleTipsOverAcross) {
+  VehicleCase vehicle = library_vehicle("rover");
+  vehicle.centre_of_gravity.z =
+      3.0;  // over half a track of 0.65 m; crabbed, less of the weight pulls across, and sunk on one side it leans
+  const auto wheels = wheels_of(vehicle);
+  const VehicleLimit across = steepest_slopes(vehicle, wheels, wheel_model)[2];
+  ASSERT_TRUE(across.angle);
+  EXPECT_EQ(across.beyond.why, GaveOut::tips_over);
+  const SteadyVehicle last = SteadyVehicles(vehicle, wheels, wheel_model)
+                                 .at_slip({.cross_slope = across.angle->value, .speed = 0.1}, across.slip);
+  EXPECT_NEAR(across.angle->value, std::atan(0.65 / (3.0 * std::cos(last.crab))) + last.left_down, 0.2 * degree);
+}
+
+TEST(VehicleAnswers, ThePowerTellsTheSpeed) {
+  VehicleCase vehicle = library_vehicle("rover");
+  const auto wheels = wheels_of(vehicle);
+  vehicle.power = 20.0;
+  const VehicleAnswers answers = answers_of(vehicle, wheels, wheel_model);
+  ASSERT_TRUE(answers.steady && answers.power_speed);
+  vehicle.condition.speed = *answers.power_speed;
+  EXPECT_NEAR(SteadyVehicles(vehicle, wheels, wheel_model).pulling(vehicle.condition).power.into_wheels, 20.0, 1e-6);
+}
+
+TEST(GoMap, HasSlopeAndCrossSlopeOfEachHeading) {
+  const double S = 0.3;
+  EXPECT_NEAR(heading_on({}, S, 0.0).slope, S, 1e-12);
+  EXPECT_EQ(heading_on({}, S, 0.0).cross_slope, 0.0);
+  const VehicleCondition across = heading_on({}, S, 90 * degree);  // to the right of straight up: the left side is up
+  EXPECT_NEAR(across.slope, 0.0, 1e-12);
+  EXPECT_NEAR(across.cross_slope, S, 1e-12);
+  EXPECT_NEAR(heading_on({}, S, 180 * degree).slope, -S, 1e-12);
+  // Whatever the heading, the share of the weight on the ground is cos(S).
+  const VehicleCondition at = heading_on({}, S, 0.7);
+  EXPECT_NEAR(std::cos(at.slope) * std::cos(at.cross_slope), std::cos(S), 1e-12);
+}
+
+TEST(GoMap, OfAnExactSoilIsYesOrNo) {
+  VehicleCase vehicle = vehicle_of(one_wheel);
+  for (const SoilParameter& p : soil_parameters) ((*vehicle.soil.semi_empirical).*p.value).std_error = 0.0;
+  const auto wheels = wheels_of(vehicle);
+  const double steepest = steepest_slopes(vehicle, wheels, wheel_model)[0].angle->value;
+  const GoMap map =
+      go_map(vehicle, wheels, wheel_model, {.slopes = {0.0, steepest - 1e-4, steepest + 1e-4}, .headings = {0.0}});
+  EXPECT_EQ(map.samples, 1);
+  EXPECT_EQ(map.cells[0][0].chance, 1.0);
+  EXPECT_EQ(map.cells[1][0].chance, 1.0);
+  EXPECT_EQ(map.cells[2][0].chance, 0.0);
+}
+
+TEST(GoMap, IsEvenAtTheSteepestSlopeAndFirstOrderNearBy) {
+  // One value with a small standard deviation: normal about the steepest slope, by its standard error.
+  VehicleCase vehicle = vehicle_of(one_wheel);
+  for (const SoilParameter& p : soil_parameters) ((*vehicle.soil.semi_empirical).*p.value).std_error = 0.0;
+  vehicle.soil.semi_empirical->friction_angle.std_error = 0.5 * degree;
+  const auto wheels = wheels_of(vehicle);
+  const Estimate steepest = *steepest_slopes(vehicle, wheels, wheel_model)[0].angle;
+  const GoMap map =
+      go_map(vehicle, wheels, wheel_model,
+             {.slopes = {steepest.value - steepest.std_error, steepest.value, steepest.value + steepest.std_error},
+              .headings = {0.0}});
+  EXPECT_NEAR(map.cells[0][0].chance, 0.84, 0.03);  // a Latin hypercube of one value has one in each fiftieth
+  EXPECT_NEAR(map.cells[1][0].chance, 0.50, 0.03);
+  EXPECT_NEAR(map.cells[2][0].chance, 0.16, 0.03);
+}
+
+/// The slope on which the rover travels at a slip, without a pull.
+double slope_at(const SteadyVehicles& rover, double slip) {
+  return gsl::bracketed_root([&](double slope) { return rover.at_slip({.slope = slope, .speed = 0.1}, slip).pull; },
+                             -20 * degree, 40 * degree, 1e-9, 1e-7, "the slope at a slip");
+}
+
+TEST(SlowVehicleAnswers, NasasRoverOnSlopesIsMetToFourDegrees) {
+  // Base and height of the centre of gravity are chosen; the wheel is smooth where NASA's has grousers.
+  const VehicleCase vehicle = library_vehicle("rover");
+  const auto wheels = wheels_of(vehicle);
+  const SteadyVehicles rover(vehicle, wheels, wheel_model);
+  std::ifstream in(cases_folder + "/measured/nasa/nasa-mgru3-2021-grc1-slip-slope.csv");
+  std::string line;
+  std::getline(in, line);
+  double slip = 0.0, slope = 0.0, squares = 0.0;
+  char comma = 0;
+  int count = 0;
+  while (in >> slip >> comma >> slope) {
+    const double off = slope_at(rover, slip / 100) / degree - slope;
+    squares += off * off, ++count;
+  }
+  ASSERT_EQ(count, 6);
+  EXPECT_LT(std::sqrt(squares / count), 4.5);  // 3.9 deg: at 5 and 13 % of slip it climbs 6 deg less than NASA's
+}
+
+}  // namespace
+}  // namespace soilbin::compare::test

@@ -1,0 +1,290 @@
+// A vehicle on soil: its statics by closed forms on ground that is hard, and on soil what must hold whatever the soil.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bekker_wong/effect_vocabulary.hpp"
+#include "bekker_wong/model.hpp"
+#include "compare/sweep/wheel_limits.hpp"
+#include "compare/vehicle/steady_vehicle.hpp"
+#include "tests/fixtures.hpp"
+
+namespace soilbin::compare::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// Ground on which nothing sinks: pull 2 s W, torque of that at the rim; across the wheel twice the yaw.
+struct HardGround final : Model {
+  std::string name() const override { return "hard ground"; }
+  TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override {
+    const double up = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
+    const double forward = 2.0 * at.slip * up, left = 2.0 * at.yaw * up;
+    const double c = std::cos(at.yaw), s = std::sin(at.yaw);
+    TractionResult result;
+    result.at = at;
+    result.drawbar_pull.value = forward * c - left * s - at.load * std::sin(at.longitudinal_incline);
+    result.lateral_force.value =
+        forward * s + left * c - at.load * std::cos(at.longitudinal_incline) * std::sin(at.transverse_incline);
+    result.torque.value = forward * scenario.tire.radius;
+    result.contact_area = 0.01;
+    return result;
+  }
+};
+
+Tire wheel_of_a_rover() { return soilbin::test::smooth_wheel(0.15, 0.12); }
+
+VehicleAxle axle(const std::string& name, double x) {
+  VehicleAxle made;
+  made.name = name, made.x = x, made.track = 0.8, made.tire = wheel_of_a_rover();
+  return made;
+}
+
+/// 1.2 m between its axles, the centre of gravity 0.5 m before the rear one and 0.4 m high.
+VehicleCase rover() {
+  VehicleCase made;
+  made.name = "rover", made.mass = 40.0, made.centre_of_gravity = {0.5, 0.0, 0.4};
+  made.axles = {axle("front", 1.2), axle("rear", 0.0)};
+  made.hitch.at = {-0.2, 0.0, 0.3};
+  made.soil.name = "dry sand", made.soil.semi_empirical = soilbin::test::dry_sand();
+  return made;
+}
+
+const HardGround hard;
+const bekker_wong::BekkerWong soft({.errors = false, .patch = false});
+
+double load_of(const SteadyVehicle& vehicle, std::initializer_list<std::size_t> wheels) {
+  double sum = 0.0;
+  for (const std::size_t i : wheels) sum += vehicle.wheels[i].normal_load;
+  return sum;
+}
+
+TEST(VehicleStatics, AreTheTextbooksOfTwoAxles) {
+  // Moments about the rear wheels' ground: N_f L = G cos(a) l_r - G sin(a) h - D h_d.
+  const VehicleCase question = rover();
+  const auto wheels = wheels_of(question);
+  const SteadyVehicles vehicles(question, wheels, hard);
+  const double G = vehicles.weight();
+  for (const double slope : {0.0, 0.2, -0.15})
+    for (const double pull : {0.0, 30.0}) {
+      const SteadyVehicle v = vehicles.pulling({.slope = slope, .speed = 1.0, .pull = pull});
+      const double front = (G * std::cos(slope) * 0.5 - G * std::sin(slope) * 0.4 - pull * 0.3) / 1.2;
+      EXPECT_NEAR(load_of(v, {0, 1}) / G, front / G, 1e-12) << slope << " " << pull;
+      EXPECT_NEAR(load_of(v, {2, 3}) / G, std::cos(slope) - front / G, 1e-12);
+      EXPECT_NEAR(v.pull, pull, 1e-9 * G);
+      EXPECT_NEAR(v.slip, (G * std::sin(slope) + pull) / (2 * G * std::cos(slope)), 1e-9);
+    }
+}
+
+TEST(VehicleStatics, APullThatPointsDownPressesTheVehicleDown) {
+  VehicleCase question = rover();
+  question.hitch.angle = 0.3;
+  const auto wheels = wheels_of(question);
+  const SteadyVehicles vehicles(question, wheels, hard);
+  const double G = vehicles.weight(), pull = 40.0;
+  const SteadyVehicle v = vehicles.pulling({.pull = pull});
+  const double down = pull * std::sin(0.3), front = (G * 0.5 - pull * std::cos(0.3) * 0.3 - down * 0.2) / 1.2;
+  EXPECT_NEAR(load_of(v, {0, 1}) / G, front / G, 1e-9);
+  EXPECT_NEAR(load_of(v, {0, 1, 2, 3}), G + down, 1e-9 * G);
+}
+
+TEST(VehicleStatics, OnACrossSlopeTheLowerWheelsCarryMore) {
+  // N_right - N_left = 2 G sin(b) h/t, where nothing else turns it over; the crab holds it: 2 psi N = G sin(b).
+  VehicleCase question = rover();
+  question.axles[0].steered = YesNo::yes;
+  const auto wheels = wheels_of(question);
+  const SteadyVehicles vehicles(question, wheels, hard);
+  const double G = vehicles.weight(), slope = 0.1;
+  const SteadyVehicle v = vehicles.pulling({.cross_slope = slope});
+  EXPECT_NEAR(load_of(v, {1, 3}) - load_of(v, {0, 2}), 2 * G * std::sin(slope) * 0.4 / 0.8, 0.02 * G * slope);
+  EXPECT_NEAR(v.crab, std::tan(slope) / 2, 0.02 * slope);
+  EXPECT_NEAR(v.yaw_moment, 0.0, 1e-7 * G);
+}
+
+TEST(VehicleStatics, ThreeAxlesStandAsARigidFrameOnSprings) {
+  // L_i = k_i (a + b x_i): of springs alike at 0, 1 and 2 with the weight at 1.25: 1/3 + (x - 1)/8.
+  VehicleCase question = rover();
+  question.axles = {axle("a", 2.0), axle("b", 1.0), axle("c", 0.0)};
+  question.centre_of_gravity = {1.25, 0.0, 0.0};
+  auto wheels = wheels_of(question);
+  const SteadyVehicles alike(question, wheels, hard);
+  const double G = alike.weight();
+  const SteadyVehicle v = alike.at_slip({}, 0.0);
+  EXPECT_NEAR(load_of(v, {0, 1}) / G, 1.0 / 3 + 1.0 / 8, 1e-12);
+  EXPECT_NEAR(load_of(v, {2, 3}) / G, 1.0 / 3, 1e-12);
+  EXPECT_NEAR(load_of(v, {4, 5}) / G, 1.0 / 3 - 1.0 / 8, 1e-12);
+  // A middle axle that is all but loose leaves two: 1.25/2 on the first.
+  question.axles[0].stiffness = question.axles[2].stiffness = 1.0, question.axles[1].stiffness = 1e-7;
+  EXPECT_NEAR(load_of(SteadyVehicles(question, wheels, hard).at_slip({}, 0.0), {0, 1}) / G, 1.25 / 2, 1e-6);
+}
+
+TEST(VehicleStatics, AWheelOffTheGroundLeavesTheOthersItsLoad) {
+  VehicleCase question = rover();
+  question.axles = {axle("a", 2.0), axle("b", 1.0), axle("c", 0.0)};
+  question.centre_of_gravity = {1.9, 0.0, 0.0};
+  const auto wheels = wheels_of(question);
+  const SteadyVehicles vehicles(question, wheels, hard);
+  const SteadyVehicle v = vehicles.at_slip({}, 0.0);
+  EXPECT_TRUE(v.wheels[4].lifted);
+  EXPECT_NEAR(load_of(v, {0, 1}) / vehicles.weight(), 0.9, 1e-9);
+}
+
+TEST(VehicleStatics, TipsOverWhereTheWeightStandsOutside) {
+  VehicleCase question = rover();
+  const auto wheels = wheels_of(question);
+  question.centre_of_gravity = {1.3, 0.0, 0.4};
+  try {
+    SteadyVehicles(question, wheels, hard).at_slip({}, 0.1);
+    FAIL() << "it stands";
+  } catch (const VehicleGaveOut& error) {
+    EXPECT_EQ(error.why(), GaveOut::tips_over);
+  }
+}
+
+TEST(Vehicle, OfOneWheelIsTodaysEstimateToTheBit) {
+  VehicleCase question = rover();
+  question.axles = {axle("wheel", 0.0)};
+  question.axles[0].track.reset();
+  question.mass = 12.0;
+  const auto wheels = wheels_of(question);
+  const SteadyVehicles vehicles(question, wheels, soft);
+  for (const double slope : {0.0, 0.15})
+    for (const double slip : {-0.2, 0.1, 0.4, 1.0}) {
+      const SteadyVehicle v = vehicles.at_slip({.slope = slope, .speed = 0.1}, slip);
+      const TractionResult alone =
+          soft.evaluate(wheels[0].scenario, {.load = vehicles.weight(), .slip = slip, .longitudinal_incline = slope});
+      EXPECT_EQ(v.pull, alone.drawbar_pull.value);
+      EXPECT_EQ(v.wheels[0].result.torque.value, alone.torque.value);
+      EXPECT_EQ(v.wheels[0].result.sinkage.value, alone.sinkage.value);
+    }
+  const OperatingCondition at{.load = vehicles.weight()};
+  EXPECT_NEAR(vehicles.at_most({}).pull, largest_pull(wheels[0].scenario, at).drawbar_pull.value, 1e-6);
+  EXPECT_NEAR(vehicles.pulling({.pull = 5.0}).slip, slip_for_pull(wheels[0].scenario, at, 5.0)->value, 1e-9);
+}
+
+TEST(Vehicle, OfFourWheelsAlikeIsFourTimesOne) {
+  // Its weight in the middle and on the ground, and no ruts: four wheels alike, but for the couple -M of each.
+  VehicleCase question = rover();
+  question.axles = {axle("front", 0.5), axle("rear", -0.5)};
+  question.centre_of_gravity = {0.0, 0.0, 0.0}, question.hitch.at = {0.0, 0.0, 0.0};
+  const auto wheels = wheels_of(question);
+  const SteadyVehicle v = SteadyVehicles(question, wheels, soft).at_slip({}, 0.3);
+  EXPECT_EQ(v.wheels[0].result.drawbar_pull.value, v.wheels[1].result.drawbar_pull.value);
+  EXPECT_EQ(v.wheels[2].result.torque.value, v.wheels[3].result.torque.value);
+  // A hitch as high as the wheels' forces and couples ask for leaves no transfer: then all four are alike.
+  const TractionResult one = soft.evaluate(
+      wheels[0].scenario, {.load = SteadyVehicles(question, wheels, soft).weight() / 4, .slip = 0.3, .speed = 1.0});
+  const double height = wheels[0].place.z - one.torque.value / one.drawbar_pull.value;
+  question.hitch.at.z = height;
+  const SteadyVehicle alike = SteadyVehicles(question, wheels, soft).at_slip({}, 0.3);
+  for (const SteadyWheel& wheel : alike.wheels) EXPECT_NEAR(wheel.result.at.load, one.at.load, 1e-9 * one.at.load);
+}
+
+TEST(Vehicle, OnTheOtherSlopeIsItsMirrorImage) {
+  for (const DriveLine line : {DriveLine::locked, DriveLine::open_axles}) {
+    VehicleCase question = rover();
+    question.drive_line = line, question.axles[0].steered = YesNo::yes;
+    const auto wheels = wheels_of(question);
+    const SteadyVehicles vehicles(question, wheels, soft);
+    const SteadyVehicle left = vehicles.at_slip({.slope = 0.05, .cross_slope = 0.12}, 0.25);
+    const SteadyVehicle right = vehicles.at_slip({.slope = 0.05, .cross_slope = -0.12}, 0.25);
+    EXPECT_NEAR(left.pull, right.pull, 1e-7 * vehicles.weight());
+    EXPECT_NEAR(left.crab, -right.crab, 1e-8);
+    EXPECT_NEAR(left.steering, -right.steering, 1e-8);
+    for (const auto& [one, other] : {std::pair{0, 1}, {1, 0}, {2, 3}, {3, 2}}) {
+      const SteadyWheel &a = left.wheels[static_cast<std::size_t>(one)],
+                        &b = right.wheels[static_cast<std::size_t>(other)];
+      EXPECT_NEAR(a.normal_load, b.normal_load, 1e-7 * vehicles.weight());
+      EXPECT_NEAR(a.result.torque.value, b.result.torque.value, 1e-7 * vehicles.weight());
+      EXPECT_NEAR(a.result.at.slip, b.result.at.slip, 1e-7);
+    }
+  }
+}
+
+TEST(Vehicle, PowersAddUp) {
+  VehicleCase question = rover();
+  question.axles[0].driven = YesNo::no;
+  const auto wheels = wheels_of(question);
+  const SteadyVehicles vehicles(question, wheels, soft);
+  const SteadyVehicle v = vehicles.at_slip({.slope = 0.05, .speed = 0.4}, 0.35);
+  const VehiclePower& p = v.power;
+  EXPECT_NEAR(p.into_wheels, p.drawbar + p.climbing + p.slip_loss + p.soil_loss, 1e-9 * p.into_wheels);
+  double into_wheels = 0.0;  // by torque and rotation, wheel by wheel
+  for (std::size_t i = 0; i < wheels.size(); ++i)
+    into_wheels += v.wheels[i].result.torque.value * v.wheels[i].rim_speed / wheels[i].scenario.tire.radius;
+  EXPECT_NEAR(p.into_wheels, into_wheels, 1e-12 * into_wheels);
+  EXPECT_GT(p.slip_loss, 0.0);
+  EXPECT_GT(p.soil_loss, 0.0);
+}
+
+TEST(Vehicle, ATowedWheelHasNoTorqueAndSkids) {
+  VehicleCase question = rover();
+  question.axles[0].driven = YesNo::no;
+  const auto wheels = wheels_of(question);
+  const SteadyVehicle v = SteadyVehicles(question, wheels, soft).at_slip({}, 0.3);
+  EXPECT_NEAR(v.wheels[0].result.torque.value, 0.0, 1e-10);
+  EXPECT_LT(v.wheels[0].result.at.slip, 0.0);
+  EXPECT_LT(v.wheels[0].result.drawbar_pull.value, 0.0);
+}
+
+TEST(Vehicle, AnOpenAxleHasEqualTorques) {
+  VehicleCase question = rover();
+  question.drive_line = DriveLine::open_axles;
+  question.centre_of_gravity.y = 0.1;
+  const auto wheels = wheels_of(question);
+  const SteadyVehicle v = SteadyVehicles(question, wheels, soft).at_slip({}, 0.3);
+  for (const std::size_t left : {0u, 2u}) {
+    const SteadyWheel &l = v.wheels[left], &r = v.wheels[left + 1];
+    EXPECT_NEAR(l.result.torque.value, r.result.torque.value, 1e-10);
+    EXPECT_GT(l.normal_load, r.normal_load);
+    EXPECT_LT(l.result.at.slip, r.result.at.slip);
+    // The mean of the rim speeds is the drive line's: v/(1 - 0.3).
+    EXPECT_NEAR((l.rim_speed + r.rim_speed) / 2, 1.0 / 0.7, 1e-2);
+  }
+}
+
+TEST(Vehicle, AMotorGivesNoMoreThanItsLargestTorque) {
+  VehicleCase question = rover();
+  question.drive_line = DriveLine::motors;
+  const auto wheels = wheels_of(question);
+  const SteadyVehicle free = SteadyVehicles(question, wheels, soft).at_slip({}, 0.4);
+  const double most = 0.8 * free.wheels[2].result.torque.value;
+  question.axles[1].largest_torque = most;
+  const SteadyVehicle held = SteadyVehicles(question, wheels, soft).at_slip({}, 0.4);
+  EXPECT_TRUE(held.wheels[2].at_largest_torque);
+  EXPECT_FALSE(held.wheels[0].at_largest_torque);
+  EXPECT_NEAR(held.wheels[2].result.torque.value, most, 1e-10);
+  EXPECT_LT(held.pull, free.pull);
+}
+
+TEST(Vehicle, RearWheelsRollInTheRutsOfThoseBefore) {
+  VehicleCase question = rover();
+  question.effects = {{"multipass", "stiffer", {}}};
+  EXPECT_THAT(wheels_of(question),
+              testing::ElementsAre(testing::Field(&VehicleWheel::pass, 1), testing::Field(&VehicleWheel::pass, 1),
+                                   testing::Field(&VehicleWheel::pass, 2), testing::Field(&VehicleWheel::pass, 2)));
+  const auto wheels = wheels_of(question);
+  question.centre_of_gravity.x = 0.6;
+  const SteadyVehicle v = SteadyVehicles(question, wheels, soft).at_slip({}, 0.0);
+  EXPECT_GT(v.wheels[0].result.sinkage.value, v.wheels[2].result.sinkage.value);
+  question.axles[1].track = 1.1;  // beside the ruts
+  EXPECT_EQ(wheels_of(question)[2].pass, 1);
+}
+
+TEST(Vehicle, SaysWhichWheelGaveOut) {
+  VehicleCase question = rover();
+  question.mass = 450.0, question.centre_of_gravity = {0.1, 0.0, 0.4};
+  const auto wheels = wheels_of(question);
+  try {
+    SteadyVehicles(question, wheels, soft).pulling({});
+    FAIL() << "the soil carries it";
+  } catch (const VehicleGaveOut& error) {
+    EXPECT_EQ(error.why(), GaveOut::wheel);
+    EXPECT_EQ(wheels[*error.wheel()].axle, 1u);
+    EXPECT_THAT(error.what(), HasSubstr("would sink deeper"));
+  }
+}
+
+}  // namespace
+}  // namespace soilbin::compare::test
