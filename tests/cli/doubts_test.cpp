@@ -158,7 +158,7 @@ drive:
   const fs::path page = scratch / "drive.html";
   const Outcome r = soilbin("drive" + drive + "--json --report '" + page.string() + "'");
   ASSERT_EQ(r.status, 0) << r.err;
-  EXPECT_THAT(r.err, HasSubstr("warning: lugs are ignored: add --effect lug_thrust"));
+  EXPECT_THAT(r.err, HasSubstr("warning: lugs are ignored: add lug_thrust to the drive's effects"));
   EXPECT_THAT(kinds_of(r.json()), Contains("lugs_ignored"));
   EXPECT_THAT(text_of(page), HasSubstr("lugs are ignored"));
   EXPECT_THAT(soilbin("check" + drive).out, HasSubstr("lugs are ignored"));

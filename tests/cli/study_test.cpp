@@ -336,7 +336,7 @@ study:
 TEST(Run, NamesTheNearestStudy) {
   const Outcome r = soilbin("run paper-strait");
   EXPECT_EQ(r.status, 2);
-  EXPECT_THAT(r.err, AllOf(HasSubstr("did you mean 'paper-straight'?"), HasSubstr("there are code-to-code-wheel, ")));
+  EXPECT_THAT(r.err, AllOf(HasSubstr("did you mean 'paper-straight'?"), HasSubstr("soilbin list studies shows")));
 }
 
 TEST(Run, AFileThatCannotBeWrittenIsRefusedBeforeAnyWork) {
