@@ -6,7 +6,9 @@
 #include "bekker_wong/model.hpp"
 #include "cli/commands.hpp"
 #include "cli/described_flags.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
+#include "cli/progress.hpp"
 #include "cli/question.hpp"
 #include "compare/telling/reports.hpp"
 #include "compare/vehicle/vehicle_answers.hpp"
@@ -15,7 +17,8 @@ namespace soilbin::cli {
 namespace {
 
 struct VehicleOptions {
-  std::string file, soil;
+  std::string file, soil, map;
+  unsigned samples = 50;
   compare::TireLeftOut left_out;
   DescribedFlags<compare::VehicleCondition> condition;
   OutputFlags outputs;
@@ -50,9 +53,14 @@ int vehicle(const VehicleOptions& options, const Session& session) {
   std::vector<compare::VehicleWheel> wheels = wheels_of(question);
   compare::Doubts notes = declare_tires(wheels, options.left_out);
   const bekker_wong::BekkerWong model({.errors = false, .patch = false});
-  const compare::VehicleAnswers answers = compare::answers_of(question, wheels, model);
+  compare::VehicleAnswers answers = compare::answers_of(question, wheels, model);
+  if (!options.map.empty())
+    answers.map = compare::go_map(question, wheels, model,
+                                  {.samples = static_cast<int>(options.samples), .progress = shown_progress()});
   const compare::Doubts doubts = doubts_about(answers, std::move(notes));
-  return publish(compare::report_on(answers), options.outputs, doubts, session).status(done);
+  Outputs outputs = publish(compare::report_on(answers), options.outputs, doubts, session);
+  outputs.file(options.map, [&] { return compare::csv_of(*answers.map); });
+  return outputs.status(done);
 }
 
 }  // namespace
@@ -68,6 +76,9 @@ void add_vehicle(CLI::App& app, Session& session) {
       ->group("Model");
   command->add_flag("--no-lugs", options->left_out.lugs, "smooth wheels, whatever lugs the tires declare")
       ->group("Model");
+  CLI::Option* map = add_file(*command, "--map", options->map, "FILE.csv",
+                              "the chance to go over slope and heading, by the soil's standard deviations");
+  add_value(*command, "--samples", options->samples, "WHOLE", "soils that the map draws (50)")->needs(map);
   options->outputs.add_to(*command, {.json = "soilbin-vehicle-answer/1, in SI",
                                      .plot = "draw pull and sinkages against slip",
                                      .csv = "save pull and wheels against slip"});

@@ -40,6 +40,7 @@ struct BevameterReadings;
 struct Campaign;
 struct DriveSides;
 struct FailureMapResult;
+struct GoMap;
 struct Finding;
 struct MeasuredPlate;
 struct MeasuredPlatesFit;
@@ -76,6 +77,8 @@ Report report_on(const cone_index::Mobility& mobility, const std::string& soil);
 
 /// A vehicle on a soil: whether it travels, how steep, each wheel, power, pull against slip; soilbin-vehicle-answer/1.
 Report report_on(const VehicleAnswers& answers);
+/// A row for each slope and heading.
+std::string csv_of(const GoMap& map);
 
 /// What measured plate tests gave: the values with the parts of their errors, each plate by itself, what was set aside,
 /// and the lines that a campaign or a soil file takes; readings and Bekker's form drawn; soilbin-plates/1. `file`: name

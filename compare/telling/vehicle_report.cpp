@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bekker_wong/effect.hpp"
+#include "compare/report/heat_map.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/telling/reports.hpp"
@@ -16,9 +17,9 @@
 namespace soilbin::compare {
 namespace {
 
-constexpr double no_error = 0.0;
+constexpr double exact_error = 0.0;
 
-double told_error(double error) { return std::isfinite(error) ? error : no_error; }
+double told_error(double error) { return std::isfinite(error) ? error : exact_error; }
 
 std::string wheel_called(const VehicleAnswers& answers, const VehicleFailure& failure) {
   return failure.wheel ? answers.wheels[*failure.wheel].name : "";
@@ -202,6 +203,46 @@ std::vector<std::string> vehicle_remarks(const VehicleAnswers& answers) {
   return said;
 }
 
+std::string degrees_text(double angle) { return fmt::format("{:.4g}", angle / degree); }
+
+Table map_table(const GoMap& map) {
+  Table table{"Chance to go [%], by slope and by heading from straight up", {"slope [deg]"}};
+  for (const double heading : map.headings) table.header.push_back(degrees_text(heading) + " deg");
+  for (std::size_t i = 0; i < map.slopes.size(); ++i) {
+    std::vector<TableCell> row = {degrees_text(map.slopes[i])};
+    for (const GoCell& cell : map.cells[i]) row.emplace_back(fmt::format("{:.0f}", 100 * cell.chance));
+    table.add(std::move(row));
+  }
+  double widest = 0.0;
+  for (const auto& row : map.cells)
+    for (const GoCell& cell : row) widest = std::max(widest, cell.std_error);
+  table.legend = fmt::format(
+      "Share of {} soils, drawn by the standard deviations of the soil's values, on which it travels steadily; a "
+      "share's "
+      "standard error is up to {:.0f} %. A soil on which it fails counts as failed on every steeper slope.",
+      map.samples, 100 * widest);
+  return table;
+}
+
+HeatMap heat_map_of_go(const GoMap& map) {
+  HeatMap heat;
+  heat.title = "Chance to go [%]", heat.subtitle = fmt::format("share of {} soils", map.samples);
+  heat.x_title = "heading from straight up [deg]", heat.y_title = "slope [deg]";
+  heat.limit = 1.0;
+  for (const double heading : map.headings) heat.x.push_back(degrees_text(heading));
+  for (std::size_t i = map.slopes.size(); i-- > 0;) {
+    heat.y.push_back(degrees_text(map.slopes[i]));
+    std::vector<HeatCell>& row = heat.cells.emplace_back();
+    for (std::size_t k = 0; k < map.headings.size(); ++k) {
+      const double chance = map.cells[i][k].chance;
+      row.push_back({2 * chance - 1, fmt::format("{:.0f}", 100 * chance),
+                     fmt::format("slope {} deg, heading {} deg: goes on {:.0f} % of the soils",
+                                 degrees_text(map.slopes[i]), degrees_text(map.headings[k]), 100 * chance)});
+    }
+  }
+  return heat;
+}
+
 Sheet vehicle_sheet(const VehicleAnswers& answers) {
   const Axis slip{"slip of the drive line [%]"};
   Sheet sheet{answers.question.name + " on " + answers.question.soil.name,
@@ -262,11 +303,11 @@ Json limit_json(const VehicleAnswers& answers, const VehicleLimit& limit) {
   return json;
 }
 
-Json condition_json(const VehicleCondition& at) {
+Json asked_of_vehicle_json(const VehicleCondition& at) {
   return {{"slope", at.slope}, {"cross_slope", at.cross_slope}, {"speed", at.speed}, {"pull", at.pull}};
 }
 
-Json steady_json(const VehicleAnswers& answers) {
+Json steady_vehicle_json(const VehicleAnswers& answers) {
   const SteadyVehicle& v = *answers.steady;
   Json json = {{"slip", estimate_json({v.slip, answers.errors.slip})},
                {"pull", v.pull},
@@ -290,18 +331,29 @@ Json steady_json(const VehicleAnswers& answers) {
   return json;
 }
 
+Json map_json(const GoMap& map) {
+  Json json = {{"samples", map.samples}, {"slopes", map.slopes}, {"headings", map.headings}};
+  json["chance"] = Json::array();
+  for (const auto& row : map.cells) {
+    Json& to = json["chance"].emplace_back(Json::array());
+    for (const GoCell& cell : row) to.push_back(estimate_json({cell.chance, cell.std_error}));
+  }
+  return json;
+}
+
 Json vehicle_json(const VehicleAnswers& answers) {
   const VehicleCase& question = answers.question;
   Json document = {{"format", "soilbin-vehicle-answer/1"},
                    {"vehicle", question.name},
                    {"soil", question.soil.name},
-                   {"condition", condition_json(question.condition)}};
-  document["steady"] = answers.steady ? steady_json(answers) : Json();
+                   {"condition", asked_of_vehicle_json(question.condition)}};
+  document["steady"] = answers.steady ? steady_vehicle_json(answers) : Json();
   document["failure"] = answers.failure ? failure_json(answers, *answers.failure) : Json();
   document["speed_at_largest_power"] = or_null(answers.power_speed);
   document["steepest"] = {{"up", limit_json(answers, answers.up)},
                           {"down", limit_json(answers, answers.down)},
                           {"across", limit_json(answers, answers.across)}};
+  document["map"] = answers.map ? map_json(*answers.map) : Json();
   document["pulls"] = Json::array();
   for (const VehiclePullRow& row : answers.pulls) {
     Json json = {{"slip", row.slip}};
@@ -338,6 +390,15 @@ std::string vehicle_csv(const VehicleAnswers& answers) {
 
 }  // namespace
 
+std::string csv_of(const GoMap& map) {
+  std::string text = "slope_deg,heading_deg,chance,chance_se\n";
+  for (std::size_t i = 0; i < map.slopes.size(); ++i)
+    for (std::size_t k = 0; k < map.headings.size(); ++k)
+      text += fmt::format("{},{},{},{}\n", csv_number(map.slopes[i] / degree), csv_number(map.headings[k] / degree),
+                          csv_number(map.cells[i][k].chance), csv_number(map.cells[i][k].std_error));
+  return text;
+}
+
 Report report_on(const VehicleAnswers& answers) {
   const VehicleCase& question = answers.question;
   Report report{"Vehicle: " + question.name, "Does it go, how steep, and which wheel gives out?",
@@ -351,6 +412,14 @@ Report report_on(const VehicleAnswers& answers) {
     report.add("Power", power_table(*answers.steady));
   }
   report.add("Pull", pulls_table(answers));
+  if (answers.map) {
+    report.add("Where it goes", map_table(*answers.map));
+    report.add(Drawings{{heat_map_svg(heat_map_of_go(*answers.map))},
+                        "Orange: goes on more than half of the soils; blue: on fewer.",
+                        "chance-to-go",
+                        true},
+               Told::to_look_at);
+  }
   if (const auto remarks = vehicle_remarks(answers); !remarks.empty()) report.add(Sentences(remarks));
   report.sheet = drawn_once([&] { return vehicle_sheet(answers); });
   report.add("Against slip", Figure(report.sheet, "Band: one standard error of the pull."));

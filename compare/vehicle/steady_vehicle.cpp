@@ -13,11 +13,11 @@
 namespace soilbin::compare {
 namespace {
 
-constexpr double balanced = 1e-13;     // what the search for a balance aims at, as a share of the weight
-constexpr double good_enough = 1e-9;   // what counts as one
-constexpr double lifts = 1e-9;         // share of the weight below which a wheel is off the ground
-constexpr double most_braked = -0.95;  // a locked wheel has no speed ratio
-constexpr double slip_step = 0.05;
+constexpr double aimed_residual = 1e-13;  // what the search for a balance aims at, as a share of the weight
+constexpr double good_residual = 1e-9;    // what counts as one
+constexpr double lifts = 1e-9;            // share of the weight below which a wheel is off the ground
+constexpr double most_braked = -0.95;     // a locked wheel has no speed ratio
+constexpr double scanned_slip = 0.05;
 
 /// The plane a + b x + c y through the wheels' sinkages, by least squares; b and c are 0 where nothing tells them.
 struct SinkagePlane {
@@ -30,7 +30,7 @@ double turn_of(double unknown) {
   return most * std::tanh(unknown / most);
 }
 
-double mean(const std::vector<double>& all) {
+double mean_of_places(const std::vector<double>& all) {
   double sum = 0.0;
   for (const double one : all) sum += one;
   return sum / static_cast<double>(all.size());
@@ -39,7 +39,7 @@ double mean(const std::vector<double>& all) {
 SinkagePlane plane_through(const std::vector<VehiclePoint>& points) {
   std::vector<double> xs, ys, zs;
   for (const VehiclePoint& point : points) xs.push_back(point.x), ys.push_back(point.y), zs.push_back(point.z);
-  const double x0 = mean(xs), y0 = mean(ys), z0 = mean(zs);
+  const double x0 = mean_of_places(xs), y0 = mean_of_places(ys), z0 = mean_of_places(zs);
   double xx = 0.0, yy = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double x = xs[i] - x0, y = ys[i] - y0, z = zs[i] - z0;
@@ -292,9 +292,9 @@ SteadyVehicle SteadyVehicles::at_slip(const VehicleCondition& at, double slip) c
   start[0] = 1.0;
   const gsl::SystemRoot root = gsl::system_root(
       [&](std::span<const double> x, std::span<double> f) { std::ranges::copy(trial(at, slip, m, x).rest, f.begin()); },
-      std::move(start), balanced);
+      std::move(start), aimed_residual);
   SteadyVehicle found = trial(at, slip, m, root.x).vehicle;
-  if (root.residual <= good_enough) return found;
+  if (root.residual <= good_residual) return found;
   if (std::ranges::any_of(found.wheels, &SteadyWheel::lifted))
     throw VehicleGaveOut(GaveOut::tips_over, std::nullopt, "it tips over");
   throw VehicleGaveOut(GaveOut::slides, std::nullopt, "no balance of the forces across its travel: it slides");
@@ -313,7 +313,7 @@ SteadyVehicle SteadyVehicles::at_most(const VehicleCondition& at, bool braked) c
   };
   const double first = braked ? most_braked : 0.0, last = braked ? 0.0 : fastest();
   std::vector<gsl::Sample> samples;
-  for (int i = 0; first + i * slip_step < last; ++i) samples.push_back({first + i * slip_step, 0.0});
+  for (int i = 0; first + i * scanned_slip < last; ++i) samples.push_back({first + i * scanned_slip, 0.0});
   samples.push_back({last, 0.0});
   for (gsl::Sample& sample : samples) sample.f = height(sample.x);
   const auto top = std::ranges::max_element(samples, {}, &gsl::Sample::f);
@@ -344,9 +344,9 @@ SteadyVehicle SteadyVehicles::pulling(const VehicleCondition& at) const {
   };
   // From no slip outward: upward while it pulls too little, else downward.
   double direction = 0.0;
-  for (int step = 0; slip_step * step <= (direction < 0.0 ? -most_braked : fastest()) + slip_step / 2; ++step) {
+  for (int step = 0; scanned_slip * step <= (direction < 0.0 ? -most_braked : fastest()) + scanned_slip / 2; ++step) {
     const double slip =
-        direction < 0.0 ? std::max(-step * slip_step, most_braked) : std::min(step * slip_step, fastest());
+        direction < 0.0 ? std::max(-step * scanned_slip, most_braked) : std::min(step * scanned_slip, fastest());
     try {
       const double f = missing(slip);
       if (f == 0.0) return at_slip(at, slip);

@@ -5,16 +5,14 @@
 #include <functional>
 #include <utility>
 
-#include "bekker_wong/gsl.hpp"
-#include "bekker_wong/presumption.hpp"
-#include "scenario/soil_parameters.hpp"
+#include "compare/vehicle/doubtful_numbers.hpp"
 
 namespace soilbin::compare {
 namespace {
 
 constexpr double steepest_asked = 1.2;  // [rad] 69 deg
 
-VehicleFailure failure_of(const VehicleGaveOut& error) {
+VehicleFailure as_failure(const VehicleGaveOut& error) {
   return {error.why(), error.wheel(), error.why() == GaveOut::wheel ? error.what() : ""};
 }
 
@@ -22,49 +20,16 @@ VehicleFailure failure_of(const VehicleGaveOut& error) {
 using Numbers = std::vector<double>;
 using NumbersOf = std::function<Numbers(const std::vector<VehicleWheel>&)>;
 
-/// A number of the wheels' scenarios that has a standard deviation.
-struct Doubtful {
-  double value = 0.0, sd = 0.0;
-  Range range{};
-  std::function<void(Scenario&, double)> set{};
-};
-
-std::vector<Doubtful> doubtful_numbers(const std::vector<VehicleWheel>& wheels) {
-  std::vector<Doubtful> all;
-  const SemiEmpiricalSoil& soil = *wheels.front().scenario.soil.semi_empirical;
-  for (const SoilParameter& p : soil_parameters)
-    if (const Estimate& value = soil.*p.value; value.std_error > 0.0)
-      all.push_back({value.value, value.std_error, p.range, [member = p.value](Scenario& scenario, double x) {
-                       ((*scenario.soil.semi_empirical).*member).value = x;
-                     }});
-  std::vector<std::string> tires;
-  for (const VehicleWheel& wheel : wheels) {
-    const Tire& tire = wheel.scenario.tire;
-    if (std::ranges::find(tires, tire.name) != tires.end()) continue;
-    tires.push_back(tire.name);
-    if (bekker_wong::errs_by_carcass(tire, wheel.scenario.effects))
-      all.push_back({tire.carcass_pressure->value, tire.carcass_pressure->std_error, zero_or_more,
-                     [name = tire.name](Scenario& scenario, double x) {
-                       if (scenario.tire.name == name) scenario.tire.carcass_pressure->value = x;
-                     }});
-  }
-  return all;
-}
-
 /// Standard errors of numbers, to first order: central differences over a thousandth of each standard deviation, the
 /// doubtful values taken as independent. Not a number where a vehicle beside this one has no balance.
 Numbers errors_of(const std::vector<VehicleWheel>& wheels, std::size_t count, const NumbersOf& numbers) {
   constexpr double share_of_sd = 1e-3, least = 1e-6, most = 1e-2;
   Numbers variance(count, 0.0);
-  for (const Doubtful& one : doubtful_numbers(wheels)) {
+  for (const DoubtfulNumber& one : doubtful_numbers(wheels)) {
     const double size = std::abs(one.value);
     const double step = size > 0.0 ? std::clamp(share_of_sd * one.sd, least * size, most * size) : share_of_sd * one.sd;
     const Neighbours beside = neighbours(one.value, step, one.range);
-    const auto with = [&](double value) {
-      std::vector<VehicleWheel> changed = wheels;
-      for (VehicleWheel& wheel : changed) one.set(wheel.scenario, value);
-      return numbers(changed);
-    };
+    const auto with = [&](double value) { return numbers(one.in(wheels, value)); };
     try {
       const Numbers below = with(beside.below), above = with(beside.above);
       for (std::size_t i = 0; i < count; ++i)
@@ -77,7 +42,7 @@ Numbers errors_of(const std::vector<VehicleWheel>& wheels, std::size_t count, co
   return variance;
 }
 
-Numbers numbers_of(const SteadyVehicle& vehicle) {
+Numbers steady_numbers(const SteadyVehicle& vehicle) {
   Numbers all = {vehicle.slip, vehicle.pull, vehicle.power.into_wheels};
   for (const SteadyWheel& wheel : vehicle.wheels) {
     const TractionResult& r = wheel.result;
@@ -115,7 +80,7 @@ VehicleLimit steepest(const VehicleCase& question, const std::vector<VehicleWhee
     try {
       return std::max(sign * (vehicles.at_most(at, braked).pull - at.pull), none);
     } catch (const VehicleGaveOut& error) {
-      limit.beyond = failure_of(error);
+      limit.beyond = as_failure(error);
       return none;
     }
   };
@@ -179,12 +144,12 @@ VehicleAnswers answers_of(const VehicleCase& question, const std::vector<Vehicle
   try {
     answers.steady = vehicles.pulling(at);
     answers.errors = errors_from(errors_of(wheels, count, [&](const std::vector<VehicleWheel>& changed) {
-      return numbers_of(SteadyVehicles(question, changed, model).pulling(at));
+      return steady_numbers(SteadyVehicles(question, changed, model).pulling(at));
     }));
     if (question.power && answers.steady->power.into_wheels > 0.0)
       answers.power_speed = *question.power * at.speed / answers.steady->power.into_wheels;
   } catch (const VehicleGaveOut& error) {
-    answers.failure = failure_of(error);
+    answers.failure = as_failure(error);
   }
   for (const int percent : {0, 5, 10, 15, 20, 25, 30, 40, 50, 60, 70, 80, 90}) {
     VehiclePullRow row{percent / 100.0};
@@ -194,7 +159,7 @@ VehicleAnswers answers_of(const VehicleCase& question, const std::vector<Vehicle
         return Numbers{SteadyVehicles(question, changed, model).at_slip(at, row.slip).pull};
       })[0];
     } catch (const VehicleGaveOut& error) {
-      row.failure = failure_of(error);
+      row.failure = as_failure(error);
     }
     answers.pulls.push_back(std::move(row));
   }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/vehicle/go_map.hpp"
 #include "compare/vehicle/steady_vehicle.hpp"
 
 namespace soilbin::compare {
@@ -57,6 +58,7 @@ struct VehicleAnswers {
   std::optional<VehicleFailure> failure{};
   std::vector<VehiclePullRow> pulls{};  ///< in the question's condition, by the slip of the drive line
   VehicleLimit up{}, down{}, across{};  ///< straight up, straight down, level across, with the pull that is asked
+  std::optional<GoMap> map{};           ///< where one was asked for; answers_of makes none
   std::optional<double> power_speed{};  ///< at which the largest power is used up [m/s]; where there is one
 };
 

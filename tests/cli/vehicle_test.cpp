@@ -44,6 +44,18 @@ TEST(VehicleCommand, GivesEveryWheelsNumbersInJson) {
   EXPECT_NEAR(load, 73.4 * 9.80665, 1e-6);
 }
 
+TEST(SlowVehicleCommand, SavesTheChanceToGo) {
+  const Scratch scratch;
+  const std::string file = (scratch / "map.csv").string();
+  const Outcome run = soilbin("vehicle " + rover + " --samples 2 --map '" + file + "' --json");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto map = run.json().at("map");
+  EXPECT_EQ(map.at("samples"), 2);
+  EXPECT_GE(map.at("chance")[0][0].at("value").get<double>(), map.at("chance")[7][0].at("value").get<double>());
+  EXPECT_THAT(text_of(file), testing::StartsWith("slope_deg,heading_deg,chance,chance_se\n0,0,"));
+  EXPECT_EQ(soilbin("vehicle " + rover + " --samples 4").status, 2);
+}
+
 TEST(VehicleCommand, ItsFileIsChecked) {
   EXPECT_THAT(soilbin("check " + rover).out, HasSubstr("valid: vehicle 'rover': 2 axles on"));
   const Scratch scratch;

@@ -10,6 +10,7 @@
 #include "bekker_wong/gsl.hpp"
 #include "bekker_wong/model.hpp"
 #include "compare/sweep/wheel_limits.hpp"
+#include "scenario/soil_parameters.hpp"
 #include "scenario/unit.hpp"
 #include "scenario/yaml_node.hpp"
 
@@ -130,6 +131,48 @@ TEST(VehicleAnswers, ThePowerTellsTheSpeed) {
   ASSERT_TRUE(answers.steady && answers.power_speed);
   vehicle.condition.speed = *answers.power_speed;
   EXPECT_NEAR(SteadyVehicles(vehicle, wheels, wheel_model).pulling(vehicle.condition).power.into_wheels, 20.0, 1e-6);
+}
+
+TEST(GoMap, HasSlopeAndCrossSlopeOfEachHeading) {
+  const double S = 0.3;
+  EXPECT_NEAR(heading_on({}, S, 0.0).slope, S, 1e-12);
+  EXPECT_EQ(heading_on({}, S, 0.0).cross_slope, 0.0);
+  const VehicleCondition across = heading_on({}, S, 90 * degree);  // to the right of straight up: the left side is up
+  EXPECT_NEAR(across.slope, 0.0, 1e-12);
+  EXPECT_NEAR(across.cross_slope, S, 1e-12);
+  EXPECT_NEAR(heading_on({}, S, 180 * degree).slope, -S, 1e-12);
+  // Whatever the heading, the share of the weight on the ground is cos(S).
+  const VehicleCondition at = heading_on({}, S, 0.7);
+  EXPECT_NEAR(std::cos(at.slope) * std::cos(at.cross_slope), std::cos(S), 1e-12);
+}
+
+TEST(GoMap, OfAnExactSoilIsYesOrNo) {
+  VehicleCase vehicle = vehicle_of(one_wheel);
+  for (const SoilParameter& p : soil_parameters) ((*vehicle.soil.semi_empirical).*p.value).std_error = 0.0;
+  const auto wheels = wheels_of(vehicle);
+  const double steepest = steepest_slopes(vehicle, wheels, wheel_model)[0].angle->value;
+  const GoMap map =
+      go_map(vehicle, wheels, wheel_model, {.slopes = {0.0, steepest - 1e-4, steepest + 1e-4}, .headings = {0.0}});
+  EXPECT_EQ(map.samples, 1);
+  EXPECT_EQ(map.cells[0][0].chance, 1.0);
+  EXPECT_EQ(map.cells[1][0].chance, 1.0);
+  EXPECT_EQ(map.cells[2][0].chance, 0.0);
+}
+
+TEST(GoMap, IsEvenAtTheSteepestSlopeAndFirstOrderNearBy) {
+  // One value with a small standard deviation: normal about the steepest slope, by its standard error.
+  VehicleCase vehicle = vehicle_of(one_wheel);
+  for (const SoilParameter& p : soil_parameters) ((*vehicle.soil.semi_empirical).*p.value).std_error = 0.0;
+  vehicle.soil.semi_empirical->friction_angle.std_error = 0.5 * degree;
+  const auto wheels = wheels_of(vehicle);
+  const Estimate steepest = *steepest_slopes(vehicle, wheels, wheel_model)[0].angle;
+  const GoMap map =
+      go_map(vehicle, wheels, wheel_model,
+             {.slopes = {steepest.value - steepest.std_error, steepest.value, steepest.value + steepest.std_error},
+              .headings = {0.0}});
+  EXPECT_NEAR(map.cells[0][0].chance, 0.84, 0.03);  // a Latin hypercube of one value has one in each fiftieth
+  EXPECT_NEAR(map.cells[1][0].chance, 0.50, 0.03);
+  EXPECT_NEAR(map.cells[2][0].chance, 0.16, 0.03);
 }
 
 /// The slope on which the rover travels at a slip, without a pull.

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "compare/measured/campaign.hpp"
+#include "compare/vehicle/vehicle.hpp"
 #include "scenario/case.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/yaml_node.hpp"
@@ -86,6 +87,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   must_answer("tire", [&] { soilbin::parse_tire(make_source_text(text, "tire.yaml")); });
   must_answer("soil", [&] { soilbin::parse_soil(make_source_text(text, "soil.yaml")); });
   must_answer("campaign", [&] { read_as_campaign(text); });
+  must_answer("vehicle", [&] {
+    soilbin::compare::parse_vehicle_case(make_source_text(text, std::string(cases) + "/vehicles/fuzz.yaml"),
+                                         Library({std::filesystem::path(cases)}), FakeVocabulary());
+  });
   return 0;
 }
 
