@@ -87,7 +87,10 @@ GoMap go_map(const VehicleCase& question, const std::vector<VehicleWheel>& wheel
     if (plan.progress) plan.progress(static_cast<std::size_t>(sample) + 1, static_cast<std::size_t>(map.samples));
   }
   for (std::vector<GoCell>& row : map.cells)
-    for (GoCell& cell : row) cell.std_error = std::sqrt(std::max(0.0, cell.chance * (1.0 - cell.chance)) / map.samples);
+    for (GoCell& cell : row) {
+      cell.chance /= map.samples;
+      cell.std_error = std::sqrt(cell.chance * (1.0 - cell.chance) / map.samples);
+    }
   return map;
 }
 
