@@ -9,14 +9,16 @@
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "compare/bevameter/measured_plates.hpp"
+#include "compare/bevameter/plate_groups.hpp"
 #include "compare/doubts/plate_doubts.hpp"
 #include "compare/telling/reports.hpp"
+#include "scenario/errors.hpp"
 
 namespace soilbin::cli {
 namespace {
 
 struct PlatesOptions {
-  std::string file, pressure, plate;
+  std::string file, pressure, plate, by, density;
   std::vector<std::string> only;
   OutputFlags outputs;
 };
@@ -27,10 +29,20 @@ int plates(const PlatesOptions& options, const Session& session) {
     std::tie(window.first, window.last) = read_range("--pressure", options.pressure, {"kPa", zero_or_more});
   std::optional<double> diameter;
   if (!options.plate.empty()) diameter = read_flag("--plate", options.plate, {"mm", above_zero});
+  const std::string name = std::filesystem::path(options.file).filename().string();
+  if (!options.by.empty()) {
+    std::optional<double> density;
+    if (!options.density.empty()) density = read_flag("--density", options.density, {"kg/m^3", above_zero});
+    const compare::PlateGroups groups =
+        compare::fit_groups(read_source_text(options.file, compare::largest_plate_csv),
+                            {options.by, column_values("--only", options.only), diameter, window, density});
+    return publish(compare::report_on(groups, name), options.outputs, compare::doubts(groups), session).status(done);
+  }
+  if (!options.density.empty())
+    throw InputError("--density needs --by: a column that tells the beds apart, dry_density_kg/m^3 or another");
   const std::vector<compare::MeasuredPlate> tests = compare::read_plates(
       read_source_text(options.file, compare::largest_plate_csv), column_values("--only", options.only), diameter);
   const compare::MeasuredPlatesFit fit = compare::fit_measured_plates(tests, window);
-  const std::string name = std::filesystem::path(options.file).filename().string();
   return publish(compare::report_on(fit, tests, name), options.outputs, compare::doubts(fit), session).status(done);
 }
 
@@ -45,11 +57,16 @@ void add_plates(CLI::App& app, Session& session) {
       ->required();
   add_value(*command, "--only", options->only, "COLUMN=VALUE", "rows that have this value alone; may be given again")
       ->allow_extra_args(false);
+  add_value(*command, "--by", options->by, "COLUMN",
+            "fits each of the column's values apart: preparations, densities, boxes");
+  add_value(*command, "--density", options->density, "DENSITY",
+            "with --by: n and k at this dry density, from three or more in a column dry_density_kg/m^3");
   add_value(*command, "--pressure", options->pressure, "LOW..HIGH",
             "readings that are used; best those that your wheel makes");
   add_value(*command, "--plate", options->plate, "DIAMETER",
             "of the one round plate of all tests, where no column gives it");
-  options->outputs.add_to(*command, {.json = "soilbin-plates/1, in SI", .plot = "draw the readings and Bekker's form"});
+  options->outputs.add_to(*command, {.json = "soilbin-plates/1, in SI; with --by soilbin-plate-groups/1",
+                                     .plot = "draw the readings and Bekker's form"});
   command->footer("Example: soilbin plates plates.csv --only box=large-box --pressure 1kPa..30kPa --plot plates.svg");
   command->callback([=, &session] { session.action = [=, &session] { return plates(*options, session); }; });
 }

@@ -154,7 +154,8 @@ class Sorting {
     std::size_t branch = none;
     Reached reached;
     const auto ends = [&](std::size_t i) {
-      if (branch != none) take_branch(branch, i - 1, curve.back(), 5 * noise_z, 10 * noise_p);
+      if (branch != none)
+        take_branch(branch, i - 1, curve.back(), 5 * std::min(noise_z, 0.0005 * reached.deepest), 10 * noise_p);
       branch = none;
     };
     for (std::size_t i = 0; i < live_.size(); ++i) {
@@ -198,26 +199,44 @@ class Sorting {
   /// line.
   void take_branch(std::size_t first, std::size_t last, std::size_t top, double moves, double noise) {
     constexpr std::size_t fewest = 3;
-    constexpr double least_correlation = 0.8, least_fall = 0.2;
+    constexpr double least_correlation = 0.8, least_fall = 0.1;
     const bool spike = last - first + 1 < fewest && last + 1 < live_.size();
     const double borne = p_[live_[top]];
     if (spike && p_[live_[first]] > 0.9 * borne - noise) return;
     AsideReadings& aside = set_aside(spike ? AsideWhy::pressure_spike : AsideWhy::unloading, first, last);
     if (spike) return;
     aside.pressure = borne, aside.sinkage = z_[live_[top]];
-    std::vector<std::size_t> line = aside.readings;
-    line.push_back(live_[top]);
+    std::vector<std::size_t> line = without_the_hold(aside.readings, live_[top], moves);
     double mean_z = 0.0, mean_p = 0.0, zz = 0.0, zp = 0.0, pp = 0.0, low = z_[line[0]], high = low, fall = 0.0;
     for (const std::size_t i : line) {
       mean_z += z_[i] / static_cast<double>(line.size()), mean_p += p_[i] / static_cast<double>(line.size());
-      low = std::min(low, z_[i]), high = std::max(high, z_[i]), fall = std::max(fall, borne - p_[i]);
+      low = std::min(low, z_[i]), high = std::max(high, z_[i]);
     }
+    for (const std::size_t i : aside.readings) fall = std::max(fall, borne - p_[i]);
     for (const std::size_t i : line) {
       const double dz = z_[i] - mean_z, dp = p_[i] - mean_p;
       zz += dz * dz, zp += dz * dp, pp += dp * dp;
     }
     if (fall > least_fall * borne && high - low > moves && zp > least_correlation * std::sqrt(zz * pp))
       aside.unloading_stiffness = zp / zz;
+  }
+
+  /// The readings of a branch, and the one before where none of them is deeper, but for those of a hold: a plate that
+  /// was lifted and stands there while the pressure relaxes says nothing of the slope, and may have a hundred times the
+  /// readings.
+  std::vector<std::size_t> without_the_hold(const std::vector<std::size_t>& branch, std::size_t top,
+                                            double moves) const {
+    std::vector<std::size_t> line;
+    double low = z_[branch.front()], high = low;
+    for (const std::size_t i : branch) low = std::min(low, z_[i]), high = std::max(high, z_[i]);
+    if (z_[top] >= high) line.push_back(top), high = z_[top];
+    bool holds = false;  // the first reading of a hold ends the fall and stays
+    for (const std::size_t i : branch) {
+      const bool held = z_[i] < low + std::max(0.1 * (high - low), 0.5 * moves);
+      if (!(held && holds)) line.push_back(i);
+      holds = held;
+    }
+    return line;
   }
 
   /// Three readings or more behind one, of much more pressure at its sinkage: the sensor sticks or is at its end, or

@@ -29,8 +29,8 @@ struct PressureWindow {
 /// A value and the three parts of its standard error, which is the root of the sum of their squares.
 struct PlateValue {
   Estimate estimate;
-  /// What one more test of each plate scatters about these, and these about the truth: by leaving out each test in turn
-  /// (jackknife), with Student's t; 0 without repeats.
+  /// What one more test of each plate scatters about these, and these about the truth: by the scatter of these tests
+  /// and, as much as two more would tell, by what re-tests scatter elsewhere; with Student's t.
   double between_tests = 0.0;
   double between_pressures = 0.0;  ///< half of what the lower and the upper half of each plate's pressures differ
   double between_readings = 0.0;   ///< by least squares, of readings that scatter about their curves; n and k together
@@ -65,6 +65,8 @@ struct MeasuredPlatesFit {
   std::vector<double> plate_moduli;     ///< of each at the common n [N/m^(n+2)]
   std::vector<int> tests;               ///< of each, those that were used
   double test_scatter = 0.0;            ///< standard deviation of ln k among tests of one size [-]; 0 without repeats
+  double exponent_scatter = 0.0;        ///< and of their own n [-]
+  double low_exponent = 0.0, high_exponent = 0.0;  ///< n of the lower and of the upper half of the pressures
 
   /// Plates of one size do not part k_c from k_phi: k_c is 0 then and k_phi stands for k_c/b + k_phi, good for this b.
   bool one_size() const { return radii.size() == 1; }

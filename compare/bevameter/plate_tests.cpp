@@ -24,6 +24,7 @@ enum class Holds {
   radius,
   width,
   plate_label,
+  density,
   sinkage,
   pressure,
   force,
@@ -54,6 +55,7 @@ std::optional<PlateColumn> measured_column(const std::string& name) {
   if (is({"plate_radius", "radius"}, "m")) return PlateColumn{Holds::radius, unit};
   if (is({"plate_width", "width"}, "m")) return PlateColumn{Holds::width, unit};
   if (is({"sinkage", "depth"}, "m")) return PlateColumn{Holds::sinkage, unit};
+  if (is({"dry_density", "density"}, "kg/m^3")) return PlateColumn{Holds::density, unit};
   if (is({"pressure"}, "Pa")) return PlateColumn{Holds::pressure, unit};
   if (is({"force"}, "N")) return PlateColumn{Holds::force, unit};
   return PlateColumn{Holds::nothing, unit};
@@ -134,7 +136,7 @@ double radius_in(const CsvCell& cell, const PlateColumn& column, const SourceTex
 }
 
 struct PlateReading {
-  double radius = 0.0, sinkage = 0.0, pressure = 0.0;
+  double radius = 0.0, sinkage = 0.0, pressure = 0.0, density = 0.0;
   std::string test;
 };
 
@@ -151,6 +153,9 @@ PlateReading reading_of(const CsvRow& row, const std::vector<PlateColumn>& colum
       case Holds::width:
       case Holds::plate_label:
         reading.radius = radius_in(cell, columns[i], csv);
+        break;
+      case Holds::density:
+        reading.density = value_in(cell, columns[i], csv);
         break;
       case Holds::sinkage:
         reading.sinkage = value_in(cell, columns[i], csv);
@@ -265,6 +270,7 @@ std::vector<MeasuredPlate> read_plates(const SourceText& csv,
     const auto [place, is_new] = places.try_emplace({reading.test, reading.radius}, plates.size());
     if (is_new) plates.push_back({reading.test, {.radius = reading.radius, .pressure = {}, .sinkage = {}}});
     MeasuredPlate& plate = plates[place->second];
+    if (reading.density > 0.0) plate.density = reading.density;
     if (!(reading.pressure > 0.0 && reading.sinkage > 0.0)) continue;
     plate.curve.pressure.push_back(reading.pressure);
     plate.curve.sinkage.push_back(reading.sinkage);

@@ -12,19 +12,29 @@
 namespace soilbin::compare {
 namespace {
 
-/// The place of a column that --only names, where the file has it with this value.
-std::size_t place_of_wanted(const std::string& name, const std::string& value, const CsvTable& table,
+std::size_t place_of_column(const std::string& flag, const std::string& name, const CsvTable& table,
                             const SourceText& csv) {
   std::vector<std::string> names;
   for (const CsvCell& cell : table.header.cells) names.push_back(cell.text);
   const auto found = std::ranges::find(names, name);
   if (found == names.end())
-    throw InputError(fmt::format("--only: {} has no column '{}'{}\n  hint: its columns are {}", csv.file, clipped(name),
-                                 did_you_mean(name, names), listed(names)));
-  const auto column = static_cast<std::size_t>(found - names.begin());
+    throw InputError(fmt::format("{}: {} has no column '{}'{}\n  hint: its columns are {}", flag, csv.file,
+                                 clipped(name), did_you_mean(name, names), listed(names)));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+std::vector<std::string> different_values(const CsvTable& table, std::size_t column) {
   std::vector<std::string> values;
   for (const CsvRow& row : table.rows)
     if (std::ranges::find(values, row.cells[column].text) == values.end()) values.push_back(row.cells[column].text);
+  return values;
+}
+
+/// The place of a column that --only names, where the file has it with this value.
+std::size_t place_of_wanted(const std::string& name, const std::string& value, const CsvTable& table,
+                            const SourceText& csv) {
+  const std::size_t column = place_of_column("--only", name, table, csv);
+  const std::vector<std::string> values = different_values(table, column);
   if (std::ranges::find(values, value) == values.end())
     throw InputError(
         fmt::format("--only: no row of {} has {} '{}'{}", csv.file, name, clipped(value), did_you_mean(value, values)));
@@ -59,6 +69,12 @@ std::vector<const CsvRow*> rows_of(const CsvTable& table, const SourceText& csv,
     if (std::ranges::all_of(wanted, [&](const auto& want) { return row.cells[want.first].text == want.second; }))
       rows.push_back(&row);
   return rows;
+}
+
+std::vector<std::string> values_of_column(const SourceText& csv, const std::string& flag, const std::string& column) {
+  constexpr std::size_t most_rows = 1'000'000;
+  const CsvTable table = parse_csv(csv, most_rows);
+  return different_values(table, place_of_column(flag, column, table, csv));
 }
 
 void need_label_of_tests(const std::vector<const CsvRow*>& rows, std::size_t column, const CsvTable& table,

@@ -58,7 +58,8 @@ enum class DoubtKind {
   columns_swapped, load_swapped,
   // measured plates
   plate_test_apart, sensor_stuck, many_spikes, one_plate_size, negative_modulus, unusual_plate_exponent,
-  scattered_plate_tests, no_repeated_plates, halves_not_compared, form_misses,
+  scattered_plate_tests, no_repeated_plates, halves_not_compared, form_misses, curve_stiffens, curve_flattens,
+  beyond_densities_of_plates,
   // measured shear tests
   one_normal_stress, shear_falls_again, few_shear_tests,
   // drives and pages

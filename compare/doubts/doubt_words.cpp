@@ -218,12 +218,22 @@ constexpr DoubtSentence sentences[] = {
     D(unusual_plate_exponent, "n = {:n3}: most plate tests give 0.1 .. 1.6; do the readings start where the plate "
       "touches the soil?"),
     D(scattered_plate_tests, "pressures of tests with one plate scatter by {:.3g} %: were "
-      "they made on the same soil at the same density? --only COLUMN=VALUE selects tests"),
-    D(no_repeated_plates, "no plate test was repeated: the errors leave out the scatter between tests"),
+      "they made on the same soil at the same density? --by COLUMN fits each of its values apart, --only COLUMN=VALUE "
+      "selects tests"),
+    D(no_repeated_plates, "no plate test was repeated: what another test would scatter is taken from other sands, 8 % "
+      "of the pressure and 0.1 of n"),
     D(halves_not_compared, "low and high pressures can't be compared: some test has too few readings in a half; the "
       "errors leave out how far the soil departs from a power law"),
     D(form_misses, "Bekker's form misses the pressures by {:.3g} %: fit over the pressures that your wheel makes "
       "(--pressure)"),
+    D(curve_stiffens, "the pressure grows faster at depth than Bekker's form: n is {:.2f} in the lower half of the "
+      "pressures and {:.2f} in the upper one. A floor or a firm layer below does that (effect hard_layer), and so does "
+      "a loose bed that a plate compacts: fit over the pressures that your wheel makes (--pressure)"),
+    D(curve_flattens, "the pressure grows slower at depth than Bekker's form: n is {:.2f} in the lower half of the "
+      "pressures and {:.2f} in the upper one. The bed nears the most that it bears: a load beyond sinks deeper than the "
+      "fit says; fit over the pressures that your wheel makes (--pressure)"),
+    D(beyond_densities_of_plates, "{:g} kg/m^3 lies beyond the beds that were tested, {:g} to {:g} kg/m^3: a power of "
+      "the density is a guess there"),
     D(one_normal_stress, "one normal stress ({:.3g} kPa) can't separate c and phi: phi is given with c = 0, valid "
       "near this stress"),
     D(shear_falls_again, "the shear stress falls after a peak in {} of {:#test}: Janosi's curve stays at tau_max; at "

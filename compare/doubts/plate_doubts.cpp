@@ -34,7 +34,26 @@ Doubts doubts(const MeasuredPlatesFit& fit) {
   if (std::ranges::all_of(fit.tests, [](int count) { return count < 2; }))
     all.push_back({DoubtKind::no_repeated_plates});
   if (!fit.halves_compared) all.push_back({DoubtKind::halves_not_compared});
+  if (const double bend = fit.high_exponent - fit.low_exponent;
+      fit.halves_compared && std::abs(bend) > std::max(0.4, 2 * fit.exponent.between_tests))
+    all.push_back(
+        {bend > 0 ? DoubtKind::curve_stiffens : DoubtKind::curve_flattens, {fit.low_exponent, fit.high_exponent}});
   if (fit.pressure_error > 0.25) all.push_back({DoubtKind::form_misses, {100 * fit.pressure_error}});
+  return all;
+}
+
+Doubts doubts(const PlateGroups& groups) {
+  Doubts all;
+  for (const PlateGroup& group : groups.all)
+    for (Doubt& doubt : doubts(group.fit)) {
+      const bool of_readings = doubt.kind == DoubtKind::plate_test_apart || doubt.kind == DoubtKind::sensor_stuck ||
+                               doubt.kind == DoubtKind::many_spikes;
+      if (of_readings || (doubt.kind == DoubtKind::one_plate_size && !tell_of(all, doubt.kind)))
+        all.push_back(std::move(doubt));
+    }
+  if (groups.trend && groups.asked && (*groups.asked < groups.trend->lowest || *groups.asked > groups.trend->highest))
+    all.push_back(
+        {DoubtKind::beyond_densities_of_plates, {*groups.asked, groups.trend->lowest, groups.trend->highest}});
   return all;
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "compare/bevameter/measured_plates.hpp"
+#include "compare/bevameter/plate_groups.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/telling/reports.hpp"
@@ -84,7 +85,17 @@ std::vector<NamedValue> plate_values(const MeasuredPlatesFit& fit) {
           {soil_parameter("k_phi"), fit.k_phi}};
 }
 
-/// The lines that a campaign or a soil file takes: the sd to two digits, the value to the sd's place.
+/// "  exponent: {value: 1.1, sd: 0.2, source: ...}": the sd to two digits, the value to the sd's place.
+std::string yaml_line(const SoilParameter& p, const Estimate& value, const std::string& source) {
+  const std::string unit = unit_behind(p.unit);
+  const double sd = value.std_error * p.per_si, shown = value.value * p.per_si;
+  const int places = sd > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(sd))), 0, 9) : 0;
+  return fmt::format("  {}: {{value: {}{}, sd: {:.{}f}{}, source: {}}}\n", p.name,
+                     sd > 0.0 ? fmt::format("{:.{}f}", shown, places) : write_number(shown), unit, sd, places, unit,
+                     yaml_scalar(source));
+}
+
+/// The lines that a campaign or a soil file takes.
 std::string yaml_lines(const MeasuredPlatesFit& fit, const std::string& source) {
   const SoilParameter& exponent = soil_parameter("exponent");
   if (!exponent.range.holds(fit.exponent.estimate.value))
@@ -92,13 +103,8 @@ std::string yaml_lines(const MeasuredPlatesFit& fit, const std::string& source) 
                        exponent.range.upper);
   std::string text = "For campaign.yaml or a soil file:\n\n";
   for (const auto& [p, value] : plate_values(fit)) {
-    const std::string unit = unit_behind(p.unit);
-    const double sd = value.estimate.std_error * p.per_si, shown = value.estimate.value * p.per_si;
     const bool presumed = fit.one_size() && std::string_view(p.name) == "k_c";
-    const int places = sd > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(sd))), 0, 9) : 0;
-    text += fmt::format("  {}: {{value: {}{}, sd: {:.{}f}{}, source: {}}}\n", p.name,
-                        sd > 0.0 ? fmt::format("{:.{}f}", shown, places) : write_number(shown), unit, sd, places, unit,
-                        yaml_scalar(presumed ? source + "; presumed: one size of plate" : source));
+    text += yaml_line(p, value.estimate, presumed ? source + "; presumed: one size of plate" : source);
   }
   return text;
 }
@@ -195,6 +201,8 @@ Json plates_json(const MeasuredPlatesFit& fit, std::size_t tests) {
   document["xi_n"]["between_pressures"] = fit.xi_n.between_pressures;
   document["xi_n"]["pressure_error"] = fit.xi_n_pressure_error;
   document["test_scatter"] = fit.test_scatter;
+  document["exponent_scatter"] = fit.exponent_scatter;
+  document["low_exponent"] = fit.low_exponent, document["high_exponent"] = fit.high_exponent;
   document["lowest_pressure"] = fit.lowest, document["highest_pressure"] = fit.highest;
   document["plates"] = Json::array();
   for (std::size_t k = 0; k < fit.radii.size(); ++k)
@@ -294,6 +302,123 @@ Report report_on(const MeasuredPlatesFit& fit, std::span<const MeasuredPlate> pl
   report.add("For the model rft", Code{rft_lines(fit, "soilbin plates " + file)});
   report.add("For a soil file", Code{yaml_lines(fit, "soilbin plates " + file)});
   report.data = [&fit, tests = plates.size()] { return plates_json(fit, tests); };
+  return report;
+}
+
+namespace {
+
+/// A group's k_u, "190 to 220", or "-".
+std::string unloading_in_words(const MeasuredPlatesFit& fit) {
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (const PlateReadingsAside& one : fit.aside)
+    if (const std::optional<double>& slope = one.readings.unloading_stiffness)
+      least = std::min(least, *slope), most = std::max(most, *slope);
+  if (most == 0.0) return "-";
+  const std::string low = number(least / 1e6, 3), high = number(most / 1e6, 3);
+  return low == high ? low : low + " to " + high;
+}
+
+Table groups_table(const PlateGroups& groups) {
+  const bool one_size = std::ranges::all_of(groups.all, [](const PlateGroup& group) { return group.fit.one_size(); });
+  Table table{"", {groups.by, "tests", "up to [kPa]", "n", "n, low pressures", "n, high pressures"}};
+  for (const char* header : {"k_c [kN/m^(n+1)]", "k_phi [kN/m^(n+2)]"})
+    if (!one_size) table.header.emplace_back(header);
+  if (one_size) table.header.emplace_back("k [kN/m^(n+2)]");
+  for (const char* header : {"missed [%]", "k_u [MN/m^3]"}) table.header.emplace_back(header);
+  for (const PlateGroup& group : groups.all) {
+    const MeasuredPlatesFit& fit = group.fit;
+    std::vector<TableCell> row = {
+        group.value.empty() ? "-" : group.value, std::to_string(group.tests.size()), number(fit.highest / 1e3, 3),
+        number(fit.exponent.estimate),           number(fit.low_exponent, 3),        number(fit.high_exponent, 3)};
+    if (!one_size) row.emplace_back(fit.one_size() ? "-" : number(fit.k_c.estimate, 1e-3));
+    row.emplace_back(number(fit.k_phi.estimate, 1e-3));
+    row.emplace_back(number(100 * fit.pressure_error, 2)), row.emplace_back(unloading_in_words(fit));
+    table.add(row);
+  }
+  return table;
+}
+
+std::vector<std::string> words_on_groups(const PlateGroups& groups) {
+  std::vector<std::string> words = {
+      "Each group is fitted by itself, as soilbin plates fits one file; its errors and what it leaves out: --only.",
+      "n at low and at high pressures: of the lower and the upper half of a group's pressures. Where the upper n is "
+      "larger, the bed stiffens with depth; where it is smaller, it nears the most that it bears."};
+  if (const std::optional<DensityTrend>& trend = groups.trend)
+    words.push_back(fmt::format(
+        "Over the dry density, {:g} to {:g} kg/m^3 in {} beds: n goes as its power {}, and the pressure at z = b = "
+        "{:g} mm as its power {}, about {} and {} kPa at {} kg/m^3.",
+        trend->lowest, trend->highest, trend->densities, number(trend->exponent.power), 1000 * trend->radius,
+        number(trend->pressure.power), number(trend->exponent.reference, 3), number(trend->pressure.reference / 1e3, 3),
+        number(trend->density, 4)));
+  return words;
+}
+
+Json power_json(const PowerOfDensity& power) {
+  return {{"reference", power.reference}, {"share", power.share}, {"power", estimate_json(power.power)}};
+}
+
+Json groups_json(const PlateGroups& groups) {
+  Json document = {{"format", "soilbin-plate-groups/1"}, {"by", groups.by}, {"groups", Json::array()}};
+  for (const PlateGroup& group : groups.all) {
+    Json one = plates_json(group.fit, group.tests.size());
+    one.erase("format");
+    one["value"] = group.value;
+    one["dry_density"] = group.density ? Json(*group.density) : Json();
+    document["groups"].push_back(std::move(one));
+  }
+  document["density_trend"] = nullptr, document["at_density"] = nullptr;
+  if (const std::optional<DensityTrend>& trend = groups.trend)
+    document["density_trend"] = {{"dry_density", trend->density},
+                                 {"lowest", trend->lowest},
+                                 {"highest", trend->highest},
+                                 {"radius", trend->radius},
+                                 {"densities", trend->densities},
+                                 {"exponent", power_json(trend->exponent)},
+                                 {"pressure", power_json(trend->pressure)}};
+  if (const std::optional<PlatesAtDensity>& at = groups.at)
+    document["at_density"] = {{"dry_density", at->density},
+                              {"exponent", estimate_json(at->exponent)},
+                              {"modulus", estimate_json(at->modulus)}};
+  return document;
+}
+
+std::string lines_at_density(const PlatesAtDensity& at, const DensityTrend& trend, const std::string& source) {
+  const std::string from = fmt::format("{} --density {:g}kg/m^3; b = {:g} mm", source, at.density, 1000 * trend.radius);
+  return fmt::format("For a soil file, at {:g} kg/m^3:\n\n", at.density) +
+         yaml_line(soil_parameter("exponent"), at.exponent, from) +
+         yaml_line(soil_parameter("k_c"), {}, from + "; presumed: one size of plate") +
+         yaml_line(soil_parameter("k_phi"), at.modulus, from) +
+         fmt::format("  density: {{value: {:g} kg/m^3, source: \"as asked; dry\"}}\n", at.density);
+}
+
+/// Readings and Bekker's form of each group.
+Sheet groups_sheet(const PlateGroups& groups, const std::string& title) {
+  Plot plot{"Pressure [kPa]", {"sinkage [mm]", 0.0}, {"", 0.0}};
+  int color = 0;
+  for (const PlateGroup& group : groups.all) {
+    Plot own = plates_sheet(group.tests, group.fit, title).plots.front();
+    for (Series& series : own.series) {
+      if (series.label == "set aside") continue;
+      series.color = color, series.label = (group.value.empty() ? "-" : group.value) + ", " + series.label;
+      plot.series.push_back(std::move(series));
+    }
+    ++color;
+  }
+  return {title, {plot}, Palette::named};
+}
+
+}  // namespace
+
+Report report_on(const PlateGroups& groups, const std::string& file) {
+  const std::string source = fmt::format("soilbin plates {} --by {}", file, groups.by);
+  Report report{file, "Measured plate tests, fitted apart by a column.",
+                fmt::format("{} by {}", counted(groups.all.size(), "group"), groups.by)};
+  report.add("Group by group", groups_table(groups));
+  report.add(Sentences(words_on_groups(groups)));
+  report.sheet = drawn_once([&groups, file] { return groups_sheet(groups, file); });
+  report.add("Pressure over sinkage", Figure{report.sheet, "Points: readings; lines: Bekker's form."});
+  if (groups.at) report.add("For a soil file", Code{lines_at_density(*groups.at, *groups.trend, source)});
+  report.data = [&groups] { return groups_json(groups); };
   return report;
 }
 

@@ -44,6 +44,7 @@ struct GoMap;
 struct Finding;
 struct MeasuredPlate;
 struct MeasuredPlatesFit;
+struct PlateGroups;
 struct MeasuredShear;
 struct MeasuredShearFit;
 struct ModelAnswers;
@@ -84,6 +85,11 @@ std::string csv_of(const GoMap& map);
 /// and the lines that a campaign or a soil file takes; readings and Bekker's form drawn; soilbin-plates/1. `file`: name
 /// of the readings' file.
 Report report_on(const MeasuredPlatesFit& fit, std::span<const MeasuredPlate> plates, const std::string& file);
+
+/// What plate tests gave that were fitted apart by a column: a row a group, how n and the pressure go with the density,
+/// and a soil file's lines at the density that was asked for; soilbin-plate-groups/1. `file`: name of the readings'
+/// file.
+Report report_on(const PlateGroups& groups, const std::string& file);
 
 /// What measured shear tests gave: c, phi and K, each test by itself, and the lines that a campaign or a soil file
 /// takes; readings and Janosi's curves drawn; soilbin-shear/1. `file`: name of the readings' file.

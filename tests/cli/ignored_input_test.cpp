@@ -176,7 +176,13 @@ TEST(SlowIgnoredInput, EveryFlagOfOtherCommandsChangesTheAnswerOrIsRefused) {
                             "'";
   const std::string record = "'" SOILBIN_SOURCE_DIR "/cases/studies/recorded/paper-straight.json'";
   const Asking all[] = {
-      {"plates", readings, {{"--only", "box=a"}, {"--pressure", "5kPa..15kPa"}, {"--plate", "100mm"}}},
+      {"plates",
+       readings,
+       {{"--only", "box=a"},
+        {"--by", "box"},
+        {"--density", "1500kg/m^3"},
+        {"--pressure", "5kPa..15kPa"},
+        {"--plate", "100mm"}}},
       {"predict", "made-lesson", {{"--model", model}}},
       {"design",
        "made-lesson --runs=8 --effect=slip_sinkage",

@@ -1,0 +1,117 @@
+#include "compare/bevameter/plate_groups.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bekker_wong/gsl.hpp"
+#include "compare/bevameter/test_rows.hpp"
+#include "compare/report/number_text.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+constexpr std::size_t fewest_densities = 3;
+
+std::optional<double> common_density(const std::vector<MeasuredPlate>& tests) {
+  const std::optional<double> density = tests.front().density;
+  const bool shared =
+      std::ranges::all_of(tests, [&](const MeasuredPlate& test) { return test.density && test.density == density; });
+  return shared ? density : std::nullopt;
+}
+
+/// Of the groups that have a density, where these are three or more and one size of plate pressed them all.
+std::optional<DensityTrend> trend_of(const std::vector<PlateGroup>& groups) {
+  std::vector<double> densities, exponents, errors_of_n, pressures, errors_of_p;
+  DensityTrend trend;
+  for (const PlateGroup& group : groups) {
+    if (!group.density) continue;
+    const MeasuredPlatesFit& fit = group.fit;
+    if (!fit.one_size() || (trend.radius > 0.0 && fit.radii.front() != trend.radius)) return std::nullopt;
+    trend.radius = fit.radii.front();
+    if (std::ranges::find(densities, *group.density) == densities.end()) ++trend.densities;
+    const double n = fit.exponent.estimate.value, k = fit.k_phi.estimate.value;
+    densities.push_back(*group.density);
+    exponents.push_back(n), pressures.push_back(k * std::pow(trend.radius, n));
+    errors_of_n.push_back(std::hypot(fit.exponent.between_tests, fit.exponent.between_readings) / n);
+    errors_of_p.push_back(std::hypot(fit.k_phi.between_tests, fit.k_phi.between_readings) / k);
+    trend.bend += std::pow(fit.exponent.between_pressures, 2);
+  }
+  if (trend.densities < fewest_densities) return std::nullopt;
+  trend.bend = std::sqrt(trend.bend / static_cast<double>(densities.size()));
+  trend.lowest = std::ranges::min(densities), trend.highest = std::ranges::max(densities);
+  for (const double density : densities) trend.density += std::log(density) / static_cast<double>(densities.size());
+  trend.density = std::exp(trend.density);
+  trend.exponent = fit_power_of_density(densities, exponents, errors_of_n);
+  trend.pressure = fit_power_of_density(densities, pressures, errors_of_p);
+  return trend;
+}
+
+}  // namespace
+
+Estimate PowerOfDensity::at(double r) const {
+  const double value = reference * std::pow(r, power.value);
+  return {value, value * std::hypot(share, std::log(r) * power.std_error)};
+}
+
+PowerOfDensity fit_power_of_density(const std::vector<double>& densities, const std::vector<double>& values,
+                                    const std::vector<double>& errors) {
+  const auto count = static_cast<double>(densities.size());
+  if (densities.size() < fewest_densities)
+    throw InputError(fmt::format("a power of the density needs {} densities", fewest_densities));
+  // Equal weights about the mean of ln rho, where the two parameters are independent: the groups' errors differ less
+  // than they are known.
+  double middle = 0.0, mean = 0.0, xx = 0.0, xy = 0.0, told = 0.0;
+  for (const double density : densities) middle += std::log(density) / count;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double x = std::log(densities[i]) - middle, y = std::log(values[i]);
+    mean += y / count, xx += x * x, xy += x * y, told += errors[i] * errors[i] / count;
+  }
+  if (!(xx > 0.0)) throw InputError("a power of the density needs beds of different densities");
+  const double power = xy / xx;
+  double left = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    left += std::pow(std::log(values[i]) - mean - power * (std::log(densities[i]) - middle), 2);
+  const double freedom = count - 2, scatter = left / freedom,
+               variance = std::max(told, scatter * std::pow(gsl::student_factor(freedom), 2));
+  return {
+      .reference = std::exp(mean), .share = std::sqrt(variance / count), .power = {power, std::sqrt(variance / xx)}};
+}
+
+PlatesAtDensity at_density(const DensityTrend& trend, double density) {
+  const double r = density / trend.density;
+  const Estimate n = trend.exponent.at(r), pressure = trend.pressure.at(r);
+  const double per_pressure = std::pow(trend.radius, -n.value);
+  return {.density = density,
+          .exponent = {n.value, std::hypot(n.std_error, trend.bend)},
+          .modulus = {pressure.value * per_pressure, pressure.std_error * per_pressure}};
+}
+
+PlateGroups fit_groups(const SourceText& csv, const GroupedPlates& asked) {
+  PlateGroups groups{.by = asked.by, .all = {}, .asked = asked.density};
+  for (const std::string& value : values_of_column(csv, "--by", asked.by)) {
+    std::vector<std::pair<std::string, std::string>> only = asked.only;
+    only.emplace_back(asked.by, value);
+    PlateGroup group{.value = value, .tests = read_plates(csv, only, asked.diameter), .fit = {}};
+    if (group.tests.empty()) continue;  // --only leaves nothing of it
+    try {
+      group.fit = fit_measured_plates(group.tests, asked.window);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{} '{}': {}", asked.by, clipped(value), error.what()));
+    }
+    group.density = common_density(group.tests);
+    groups.all.push_back(std::move(group));
+  }
+  groups.trend = trend_of(groups.all);
+  if (!asked.density) return groups;
+  if (!groups.trend)
+    throw InputError(
+        "--density: these tests give no trend over the density\n  hint: it needs a column dry_density_kg/m^3, three "
+        "densities or more, --by that column or the preparation, and one size of plate");
+  groups.at = at_density(*groups.trend, *asked.density);
+  return groups;
+}
+
+}  // namespace soilbin::compare
