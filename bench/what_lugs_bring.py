@@ -2,82 +2,98 @@
 
     PYTHONPATH=build/release/python /usr/bin/python3 bench/what_lugs_bring.py [LUGGED.json SMOOTH.json]
 
-Reads the records of heavy-lugged-incline and heavy-smooth-incline (cases/studies/recorded) and prints Markdown tables, a
-row a condition that both have on the same bed sample. Both tires run on the same grains at the same slip of the tread
-base, so that what beds differ by cancels; ± is one standard error of both runs' fluctuations.
+Reads the records of heavy-lugged-incline and heavy-smooth-incline (cases/studies/recorded) and prints Markdown tables,
+a row a condition that both have on one bed sample. Both tires run on one bed at one slip of the tread base, so that
+what beds differ by cancels. "Infinitely fine" is by the twins with grains 1.4 times as large, D + (D - D_coarser)/0.4. ± is
+one standard error of the runs' fluctuations.
 """
 import argparse
+import json
 import warnings
 from pathlib import Path
 
 import numpy as np
 
 import soilbin
-from soilbin import compare
 from soilbin.bekker_wong import BekkerWong
 
 FORMS = ("passive_blade", "shear_radius_own_slip", "side_factors", "free_blade", "level_blade")
 RECORDED = Path(__file__).parent.parent / "cases/studies/recorded"
-KEY = ["packing", "longitudinal_incline", "transverse_incline", "yaw", "slip"]
+CONDITION = ("load", "slip", "speed", "longitudinal_incline", "transverse_incline", "yaw")
 
 
-def pairs(lugged, smooth):
-    """The runs of both records with an answer, side by side."""
-    frames = [compare.record_frame(file).query("error == ''") for file in (lugged, smooth)]
-    return frames[0].merge(frames[1], on=KEY, suffixes=("", "_smooth")).sort_values(KEY)
+def answers(record):
+    """Runs with an answer by (bed sample, *CONDITION): those of the soil's grains, and of coarser ones."""
+    told = json.loads(Path(record).read_text())
+    return [{(run["packing"], *(run[name] for name in CONDITION)): run
+             for run in told.get(part, []) if "drawbar_pull" in run} for part in ("runs", "coarser")]
 
 
-def gains(scenario, at, smooth):
-    """What a quick model says that lugs bring, by model: [% of the load, % of the smooth tire's torque] a condition."""
-    bare = soilbin.Scenario(smooth, scenario.soil)
-    analytic, rft = BekkerWong(patch=False), soilbin.ResistiveForce()
-
-    def gain(lugged, model):
-        with_lugs, without = (soilbin.sweep(of, at, model, progress=None) for of in (lugged, bare))
-        return zip(100 * (with_lugs.drawbar_pull - without.drawbar_pull) / at[0].load,
-                   100 * (with_lugs.torque / without.torque - 1))
-
-    def thrust(form):
-        return soilbin.Scenario(scenario.tire, scenario.soil, effects=[f"lug_thrust:{form}"])
-
-    said = {f"`{form}`": list(gain(thrust(form), analytic)) for form in FORMS}
-    return said | {"`rft`": list(gain(scenario, rft))}
+def change(lugged, smooth, channel):
+    """Lugged less smooth, and its standard error."""
+    return (lugged[channel] - smooth[channel],
+            np.hypot(*(run["std_error"][channel] for run in (lugged, smooth))))
 
 
-def efficiency(value):
+def infinitely_fine(usual, coarser):
+    """A difference extrapolated linearly in the grain size, and its standard error."""
+    return usual[0] + (usual[0] - coarser[0]) / 0.4, np.hypot(3.5 * usual[1], 2.5 * coarser[1])
+
+
+def said(lugged, smooth, at):
+    """What a model says that lugs bring at a condition: [% of the load, % of the smooth tire's torque]."""
+    with_lugs, without = (model.evaluate(scenario, at) for model, scenario in (lugged, smooth))
+    return (100 * (with_lugs.drawbar_pull.value - without.drawbar_pull.value) / at.load,
+            100 * (with_lugs.torque.value / without.torque.value - 1))
+
+
+def efficiency(run):
     """[%]; none where the wheel can't pull."""
-    return "none" if np.isnan(value) else f"{100 * value:.0f}"
+    return f"{100 * run['tractive_efficiency']:.0f}" if run["drawbar_pull"] > 0 else "none"
+
+
+def place(key):
+    """The first cells of a row."""
+    return f"| {np.degrees(key[4]):.0f}° | {100 * key[2]:.0f} % "
 
 
 def main():
+    """Prints what grains say, and what the quick models say beside it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("records", nargs="*", default=[RECORDED / "heavy-lugged-incline.json",
                                                        RECORDED / "heavy-smooth-incline.json"])
-    records = parser.parse_args().records
-    warnings.simplefilter("ignore", soilbin.SoilbinWarning)
-    both = pairs(*records)
-    print("| uphill | slip | pull, % of the load | torque, % | sinkage [mm] | tractive efficiency, % |")
-    print("|---" * 6 + "|")
-    for _, row in both.iterrows():
-        def change(channel, scale):
-            error = np.hypot(row[f"{channel}_std_error"], row[f"{channel}_std_error_smooth"])
-            return f"{scale * (row[channel] - row[f'{channel}_smooth']):+.1f} ± {scale * error:.1f}"
+    (lugged, lugged_coarser), (smooth, smooth_coarser) = map(answers, parser.parse_args().records)
+    both = sorted(lugged.keys() & smooth.keys(), key=lambda key: (key[0], key[4], key[2]))
+    print("| uphill | slip | pull, % of the load | by infinitely fine grains | torque, % | sinkage [mm] "
+          "| tractive efficiency, % |\n" + "|---" * 7 + "|")
+    gain = {}
+    for key in both:
+        with_lugs, without = lugged[key], smooth[key]
+        pull = change(with_lugs, without, "drawbar_pull")
+        fine = None
+        if key in lugged_coarser and key in smooth_coarser:
+            fine = infinitely_fine(pull, change(lugged_coarser[key], smooth_coarser[key], "drawbar_pull"))
+        percent = [None if one is None else "{:+.1f} ± {:.1f}".format(*(100 * part / key[1] for part in one))
+                   for one in (pull, fine)]
+        gain[key] = percent[1] or percent[0]
+        torque, sinkage = change(with_lugs, without, "torque"), change(with_lugs, without, "sinkage")
+        print(f"{place(key)}| {100 * without['drawbar_pull'] / key[1]:.1f} {percent[0]} | {percent[1] or ''} "
+              f"| {100 * torque[0] / without['torque']:+.0f} ± {100 * torque[1] / without['torque']:.0f} "
+              f"| {1e3 * without['sinkage']:.0f} {1e3 * sinkage[0]:+.1f} ± {1e3 * sinkage[1]:.1f} "
+              f"| {efficiency(without)} -> {efficiency(with_lugs)} |")
 
-        print(f"| {np.degrees(row.longitudinal_incline):.0f}° | {100 * row.slip:.0f} % "
-              f"| {100 * row.drawbar_pull_smooth / row.load:.1f} {change('drawbar_pull', 100 / row.load)} "
-              f"| {change('torque', 100 / row.torque_smooth)} | {1e3 * row.sinkage_smooth:.1f} {change('sinkage', 1e3)} "
-              f"| {efficiency(row.tractive_efficiency_smooth)} -> {efficiency(row.tractive_efficiency)} |")
+    warnings.simplefilter("ignore", soilbin.SoilbinWarning)
     case, bare = (soilbin.find_case(name).scenario for name in ("heavy-lugged-incline", "heavy-smooth-incline"))
-    at = [soilbin.OperatingCondition(load=row.load, slip=row.slip, speed=row.speed,
-                                     longitudinal_incline=row.longitudinal_incline) for _, row in both.iterrows()]
-    said = gains(case, at, bare.tire)
-    print("\n| uphill | slip | grains | " + " | ".join(said) + " |\n" + "|---" * (3 + len(said)) + "|")
-    for k, (_, row) in enumerate(both.iterrows()):
-        error = 100 * np.hypot(row.drawbar_pull_std_error, row.drawbar_pull_std_error_smooth) / row.load
-        print(f"| {np.degrees(row.longitudinal_incline):.0f}° | {100 * row.slip:.0f} % "
-              f"| {100 * (row.drawbar_pull - row.drawbar_pull_smooth) / row.load:+.1f} ± {error:.1f}, "
-              f"{100 * (row.torque / row.torque_smooth - 1):+.0f} % | "
-              + " | ".join("{:+.1f}, {:+.0f} %".format(*gain[k]) for gain in said.values()) + " |")
+    analytic, rft = BekkerWong(patch=False), soilbin.ResistiveForce()
+    models = {f"`{form}`": ((analytic, soilbin.Scenario(case.tire, case.soil, effects=[f"lug_thrust:{form}"])),
+                            (analytic, soilbin.Scenario(bare.tire, case.soil))) for form in FORMS}
+    models["`rft`"] = ((rft, soilbin.Scenario(case.tire, case.soil)), (rft, soilbin.Scenario(bare.tire, case.soil)))
+    print("\n| uphill | slip | infinitely fine grains | " + " | ".join(models) + " |")
+    print("|---" * (3 + len(models)) + "|")
+    for key in both:
+        at = soilbin.OperatingCondition(**dict(zip(CONDITION, key[1:])))
+        print(f"{place(key)}| {gain[key]} | "
+              + " | ".join("{:+.1f}, {:+.0f} %".format(*said(*pair, at)) for pair in models.values()) + " |")
 
 
 if __name__ == "__main__":
