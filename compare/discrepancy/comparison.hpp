@@ -30,6 +30,12 @@ struct Tally {
 /// a measured run's channels; S, the covariance of the soil's values, independent but where the model comes from a fit;
 /// J, the model's derivatives by them. The uncertainty of the soil moves all conditions together, which rows taken one
 /// by one can't show. First order in the soil's values.
+enum class JointVerdict {
+  significant,  ///< more is left than noise
+  noise,
+  undecided,  ///< more than noise were the errors known; they were estimated from too few re-runs to tell
+};
+
 struct JointTest {
   std::size_t side = 0, reference = 0;
   std::size_t values = 0;
@@ -40,8 +46,15 @@ struct JointTest {
   /// trace_tail: of a measurement with its channels, whose correlation is estimated too; of grains, whose channels
   /// stand each by itself, with one (by F, which errs high where the channels' errors err apart).
   double p_value = 1.0;
+  double p_errors_known = 1.0;    ///< p_value were the errors known, by chi square
   double chi2_soil_exact = 0.0;   ///< the same with S = 0: what the soil's uncertainty explains is the rest
   std::vector<std::string> soil;  ///< values that were free to move
+
+  static constexpr double level = 0.01;  ///< of p
+  JointVerdict verdict() const {
+    if (p_value < level) return JointVerdict::significant;
+    return p_errors_known < level ? JointVerdict::undecided : JointVerdict::noise;
+  }
 };
 
 /// The test, or why there is none.

@@ -108,6 +108,7 @@ Json comparison_json(const Comparison& comparison, const ComparisonAbout& about)
                                    {"freedom", finite(test.freedom)},
                                    {"chi2_soil_exact", finite(test.chi2_soil_exact)},
                                    {"p_value", finite(test.p_value)},
+                                   {"p_errors_known", finite(test.p_errors_known)},
                                    {"soil", test.soil}});
   if (about.loop) json["loop"] = to_json(about.loop->answer);
   for (const auto& [name, value] : about.facts) json["facts"][name] = value;

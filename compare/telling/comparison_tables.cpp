@@ -64,13 +64,13 @@ Table tally_table(const Comparison& comparison) {
 
 namespace {
 
-/// The unit of a channel's column, and how many of it are one SI unit: kN where forces are that large.
+/// The unit of a channel's column, and how many of it are one SI unit: kN and kN m where they are that large.
 std::pair<std::string, double> column_unit(const Comparison& comparison, std::size_t channel) {
   const ChannelView& view = channel_views[channel];
   bool kilo = false;
   for (const Difference& d : comparison.differences)
     kilo = kilo || (d.channel == channel && std::abs(d.reference_value.value) >= 1000.0);
-  kilo = kilo && view.unit == "N";
+  kilo = kilo && view.unit.starts_with("N");
   return {(kilo ? "k" : "") + std::string(view.unit), view.per_si / (kilo ? 1000.0 : 1.0)};
 }
 
@@ -78,8 +78,11 @@ std::pair<std::string, double> column_unit(const Comparison& comparison, std::si
 std::string change_cell(const Comparison& comparison, const Tally& asked, std::size_t condition, double per_si) {
   for (const Difference& d : comparison.differences)
     if (d.side == asked.side && d.reference == asked.reference && d.channel == asked.channel &&
-        d.condition == condition)
-      return fmt::format("{:+.3g}{}", d.difference * per_si, d.finding == DifferenceFinding::difference ? " *" : "");
+        d.condition == condition) {
+      const double change = d.difference * per_si;
+      return fmt::format("{}{}{}", change > 0 ? "+" : "", number(change, 3),
+                         d.finding == DifferenceFinding::difference ? " *" : "");
+    }
   return "-";
 }
 

@@ -1,12 +1,13 @@
 #include "compare/telling/comparison_words.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "compare/discrepancy/causes.hpp"
 #include "compare/doubts/grain_resolution.hpp"
@@ -80,7 +81,17 @@ std::string where_of(const Comparison& comparison, std::size_t condition) {
 /// Share of the squared difference that other soil values within their declared uncertainty would take away.
 double taken_by_the_soil(const JointTest& test) { return 1.0 - test.chi2 / test.chi2_soil_exact; }
 
-constexpr double joint_level = 0.01;  // p below which more is left than noise
+std::string in_words(JointVerdict verdict) {
+  switch (verdict) {
+    case JointVerdict::significant:
+      return "significant";
+    case JointVerdict::noise:
+      return "noise";
+    case JointVerdict::undecided:
+      return "not decided (too few re-runs)";
+  }
+  return "";
+}
 
 Clause joint_clause(const Comparison& comparison, const JointTest& test) {
   const std::string side = name_of(comparison.sides[test.side]), reference = name_of(comparison.sides[test.reference]);
@@ -91,8 +102,8 @@ Clause joint_clause(const Comparison& comparison, const JointTest& test) {
   clause.text = fmt::format(
       "The soil's uncertainty explains {:.0f} % of the squared difference between {} and {}. The rest is {}: chi2 = {} "
       "for {} values ({}{}).",
-      100 * taken_by_the_soil(test), side, reference, test.p_value < joint_level ? "significant" : "noise",
-      number(test.chi2), test.values, p, errors);
+      100 * taken_by_the_soil(test), side, reference, in_words(test.verdict()), number(test.chi2), test.values, p,
+      errors);
   return clause;
 }
 
@@ -100,18 +111,18 @@ Clause joint_clause(const Comparison& comparison, const JointTest& test) {
 std::optional<Clause> soil_clause(const Comparison& comparison) {
   if (comparison.joint.empty()) return std::nullopt;
   double least = 1.0, most = 0.0;
-  bool all_left = true, none_left = true;
+  std::set<JointVerdict> verdicts;
   for (const JointTest& test : comparison.joint) {
     least = std::min(least, taken_by_the_soil(test)), most = std::max(most, taken_by_the_soil(test));
-    (test.p_value < joint_level ? none_left : all_left) = false;
+    verdicts.insert(test.verdict());
   }
+  std::vector<std::string> rest;
+  for (const JointVerdict verdict : verdicts) rest.push_back(in_words(verdict));
   std::string share = fmt::format("{:.0f} %", 100 * most);
   if (std::lround(100 * least) != std::lround(100 * most)) share = fmt::format("{:.0f} to {}", 100 * least, share);
   return Clause{"The soil",
-                fmt::format("The soil's uncertainty explains {} of the squared difference. {}.", share,
-                            none_left  ? "The rest is noise"
-                            : all_left ? "The rest is significant"
-                                       : "The rest is significant for some sides and noise for others"),
+                fmt::format("The soil's uncertainty explains {} of the squared difference. The rest is {}{}.", share,
+                            fmt::join(rest, " or "), rest.size() > 1 ? ", by side" : ""),
                 {ClauseEvidence::joint_test}};
 }
 

@@ -189,7 +189,7 @@ TEST_F(Pair, TheMatrixHoldsTheBaselineAndEachChange) {
   EXPECT_THAT(matrix.header[2], HasSubstr("change ["));
   const bool kilo = matrix.header[1].find("[kN]") != std::string::npos;
   for (const auto& row : matrix.rows) EXPECT_EQ(row[2].text, kilo ? "-0.3 *" : "-300 *");
-  EXPECT_EQ(matrix.rows[0][4].text, "+0") << "a torque as it was";
+  EXPECT_EQ(matrix.rows[0][4].text, "0") << "a torque as it was";
 }
 
 // Four sides of three channels are twelve columns: a table a channel, so that none of them is left out.
@@ -365,6 +365,17 @@ TEST_F(Pair, OnePackingOfUnknownScatterHasNoJointTest) {
   EXPECT_TRUE(comparison.joint.empty());
   ASSERT_EQ(comparison.not_compared.size(), 1U);
   EXPECT_THAT(comparison.not_compared.front().why, HasSubstr("the scatter between bed samples is unknown"));
+}
+
+// Two beds whose errors rest on one degree of freedom: far apart by any known error, and yet nothing is decided.
+TEST_F(Pair, TooFewRerunsDecideNothing) {
+  JointTest test;
+  test.values = 32, test.chi2 = 5000.0, test.freedom = 1.0, test.p_value = 0.06, test.p_errors_known = 0.0;
+  EXPECT_EQ(test.verdict(), JointVerdict::undecided);
+  test.p_errors_known = 0.5;
+  EXPECT_EQ(test.verdict(), JointVerdict::noise);
+  test.p_value = 1e-4;
+  EXPECT_EQ(test.verdict(), JointVerdict::significant);
 }
 
 // Packings that scatter less than single runs' own errors say so too: those errors are then the ones that count.
