@@ -67,30 +67,41 @@ std::string condition_in_words(const VehicleCondition& at) {
   return words;
 }
 
+/// "26.6 ± 4.0 deg", without an error where none is known; "none" where it moves on no slope that was looked at.
+std::string angle_of(const VehicleLimit& limit) {
+  return limit.angle ? number({limit.angle->value, told_error(limit.angle->std_error)}, 1 / degree) + " deg" : "none";
+}
+
 std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
   std::vector<BackedSentence> said;
   if (answers.steady) {
     const SteadyVehicle& v = *answers.steady;
-    said.push_back({"travels", fmt::format("its drive line slips by {} %; the wheels take {} W, {} J a metre",
-                                           number({v.slip, told_error(answers.errors.slip)}, 100),
-                                           number({v.power.into_wheels, told_error(answers.errors.into_wheels)}),
-                                           number(v.power.into_wheels / v.at.speed))});
+    const bool kilo = std::abs(v.power.into_wheels) >= 1000.0;
+    const double unit = kilo ? 1000.0 : 1.0;
+    const char* prefix = kilo ? "k" : "";
+    said.push_back(
+        {"It travels", fmt::format("The drive line slips by {} %; the wheels take {} {}W, {} {}J a metre.",
+                                   number({v.slip, told_error(answers.errors.slip)}, 100),
+                                   number({v.power.into_wheels, told_error(answers.errors.into_wheels)}, 1 / unit),
+                                   prefix, number(v.power.into_wheels / v.at.speed / unit, 3), prefix)});
     if (answers.power_speed)
-      said.push_back({"power", fmt::format("the largest power is used up at {} m/s", number(*answers.power_speed))});
+      said.push_back({"Power", fmt::format("All of it is used at {} m/s.", number(*answers.power_speed, 3))});
     if (v.crab != 0.0)
       said.push_back(
-          {"across", fmt::format("it points {} deg uphill of its travel{}",
+          {"Across", fmt::format("It points {} deg uphill of its travel{}.",
                                  number(std::copysign(1.0, v.at.cross_slope) * v.crab / degree),
                                  v.steering != 0.0
                                      ? fmt::format(", with its steered wheels turned by {} deg more",
                                                    number(std::copysign(1.0, v.at.cross_slope) * v.steering / degree))
                                      : "")});
     if (const double arm = std::abs(v.yaw_moment); arm > 1e-6 * answers.question.mass)
-      said.push_back({"yaw moment",
-                      fmt::format("{} N m are left to turn it, which no steered axle balances", number(v.yaw_moment))});
+      said.push_back({"Yaw moment",
+                      fmt::format("{} N m are left to turn it; no steered axle balances them.", number(v.yaw_moment))});
   } else {
-    said.push_back({"does not travel", failure_in_words(answers, *answers.failure) + "."});
+    said.push_back({"It does not travel", failure_in_words(answers, *answers.failure) + "."});
   }
+  said.push_back({"Steepest slopes", fmt::format("Up {}, down {}, across {}.", angle_of(answers.up),
+                                                 angle_of(answers.down), angle_of(answers.across))});
   return said;
 }
 
