@@ -165,6 +165,24 @@ TEST(Compare, ItsTableFitsATerminalOf120Columns) {
   EXPECT_THAT(r.out, HasSubstr("sinkage"));
 }
 
+// docs/lab/failure-maps.md on the heavy lugged tire: at every condition the analytic pull is farther off than the
+// grains' own error of resolution, two of its standard errors included, so the difference is the model's.
+TEST(Compare, JudgesAHeavyLuggedTireBeyondTheErrorOfItsGrains) {
+  const nlohmann::json comparison = soilbin("compare heavy-lugged-incline --recorded --no-loop --json").json();
+  const auto& points = comparison["sides"].back()["points"];
+  ASSERT_EQ(points.size(), 8U);
+  int judged = 0;
+  for (const auto& row : comparison["rows"]) {
+    if (row["channel"] != "drawbar_pull") continue;
+    const auto& error = points.at(row["condition"].get<std::size_t>())["resolution_error"];
+    EXPECT_EQ(error["from"], "twin");
+    EXPECT_GT(row["difference"].get<double>(),
+              error["drawbar_pull"]["value"].get<double>() + 2 * error["drawbar_pull"]["std_error"].get<double>());
+    ++judged;
+  }
+  EXPECT_EQ(judged, 16) << "the analytic wheel without and with lug_thrust";
+}
+
 // An effect that the study asks for already stays one side; one more form of it is one side more.
 TEST(Compare, TakesEverySideOnce) {
   const Scratch scratch;
