@@ -81,7 +81,7 @@ std::string where_of(const Comparison& comparison, std::size_t condition) {
 /// Share of the squared difference that other soil values within their declared uncertainty would take away.
 double taken_by_the_soil(const JointTest& test) { return 1.0 - test.chi2 / test.chi2_soil_exact; }
 
-std::string in_words(JointVerdict verdict) {
+std::string rest_called(JointVerdict verdict) {
   switch (verdict) {
     case JointVerdict::significant:
       return "significant";
@@ -102,7 +102,7 @@ Clause joint_clause(const Comparison& comparison, const JointTest& test) {
   clause.text = fmt::format(
       "The soil's uncertainty explains {:.0f} % of the squared difference between {} and {}. The rest is {}: chi2 = {} "
       "for {} values ({}{}).",
-      100 * taken_by_the_soil(test), side, reference, in_words(test.verdict()), number(test.chi2), test.values, p,
+      100 * taken_by_the_soil(test), side, reference, rest_called(test.verdict()), number(test.chi2), test.values, p,
       errors);
   return clause;
 }
@@ -117,7 +117,7 @@ std::optional<Clause> soil_clause(const Comparison& comparison) {
     verdicts.insert(test.verdict());
   }
   std::vector<std::string> rest;
-  for (const JointVerdict verdict : verdicts) rest.push_back(in_words(verdict));
+  for (const JointVerdict verdict : verdicts) rest.push_back(rest_called(verdict));
   std::string share = fmt::format("{:.0f} %", 100 * most);
   if (std::lround(100 * least) != std::lround(100 * most)) share = fmt::format("{:.0f} to {}", 100 * least, share);
   return Clause{"The soil",
