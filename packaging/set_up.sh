@@ -39,8 +39,7 @@ set_up() {  # SECTION...
     echo "set-up installs packages by apt, for Debian 12; elsewhere install what packaging/debian-packages.txt names" >&2
     return 1
   fi
-  local -a missing as_root=()
-  mapfile -t missing < <(missing_of $(packages_of "$@"))
+  local -a as_root=() missing=($(missing_of $(packages_of "$@")))
   if [ ${#missing[@]} -eq 0 ]; then
     unpack_packages && echo "all packages are there"
     return
@@ -56,7 +55,7 @@ set_up() {  # SECTION...
   # A mirror that can't be reached is no obstacle where apt's lists and cache already hold what is missing.
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update || echo "apt-get update failed; going on" >&2
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${missing[@]}" || return 1
-  mapfile -t missing < <(missing_of "${missing[@]}")
+  missing=($(missing_of "${missing[@]}"))
   [ ${#missing[@]} -eq 0 ] || { echo "still missing: ${missing[*]}" >&2; return 1; }
   unpack_packages
 }
