@@ -132,8 +132,8 @@ JointOutcome joint_test(const Side& reference, const Case& question, const Model
   test.freedom = estimated.freedom;
   const auto values = static_cast<double>(test.values);
   test.p_errors_known = gsl::chi_square_tail(test.chi2, values);
-  test.p_value = std::isinf(test.freedom) ? test.p_errors_known
-                                          : trace_tail(test.chi2, values, estimated.channels, test.freedom);
+  test.p_value =
+      std::isinf(test.freedom) ? test.p_errors_known : trace_tail(test.chi2, values, estimated.channels, test.freedom);
   return {test, ""};
 }
 
