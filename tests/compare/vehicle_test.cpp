@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "bekker_wong/effect_vocabulary.hpp"
 #include "bekker_wong/model.hpp"
@@ -117,6 +119,24 @@ TEST(VehicleStatics, ThreeAxlesStandAsARigidFrameOnSprings) {
   // A middle axle that is all but loose leaves two: 1.25/2 on the first.
   question.axles[0].stiffness = question.axles[2].stiffness = 1.0, question.axles[1].stiffness = 1e-7;
   EXPECT_NEAR(load_of(SteadyVehicles(question, wheels, hard).at_slip({}, 0.0), {0, 1}) / G, 1.25 / 2, 1e-6);
+}
+
+// By the matrix of Jazar, Vehicle Dynamics, Eqs. 2.241 to 2.268 (its printed solution has another factor): 9 t on axles
+// at 1.6, -1.2 and -2.4 m of its centre of gravity, which is 1.1 m high, on springs alike, level and on 10 deg.
+TEST(VehicleStatics, MeetThreeAxlesOnSpringsByJazar) {
+  VehicleCase question = rover();
+  question.mass = 9000.0, question.centre_of_gravity = {0.0, 0.0, 1.1};
+  question.axles = {axle("a", 1.6), axle("b", -1.2), axle("c", -2.4)};
+  const auto wheels = wheels_of(question);
+  const SteadyVehicles vehicles(question, wheels, hard);
+  constexpr double his_weight = 9000.0 * 9.81, degree = 0.017453292519943295;
+  const std::array<double, 3> level = {22631.2975, 12852.3418, 8661.3608},
+                              uphill = {20019.3037, 13190.7737, 10264.2609};
+  for (const auto& [slope, each] : {std::pair(0.0, level), std::pair(10 * degree, uphill)}) {
+    const SteadyVehicle v = vehicles.pulling({.slope = slope});
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(load_of(v, {2 * i}) / vehicles.weight(), each[i] / his_weight, 2e-9) << slope << " " << i;
+  }
 }
 
 TEST(VehicleStatics, AWheelOffTheGroundLeavesTheOthersItsLoad) {
