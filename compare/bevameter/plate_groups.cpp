@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "bekker_wong/gsl.hpp"
+#include "compare/bevameter/plate_tests.hpp"
 #include "compare/bevameter/test_rows.hpp"
 #include "compare/report/number_text.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -91,10 +93,11 @@ PlatesAtDensity at_density(const DensityTrend& trend, double density) {
 
 PlateGroups fit_groups(const SourceText& csv, const GroupedPlates& asked) {
   PlateGroups groups{.by = asked.by, .all = {}, .asked = asked.density};
-  for (const std::string& value : values_of_column(csv, "--by", asked.by)) {
+  const CsvTable table = parse_csv(csv, most_plate_rows);
+  for (const std::string& value : values_of_column(table, csv, "--by", asked.by)) {
     std::vector<std::pair<std::string, std::string>> only = asked.only;
     only.emplace_back(asked.by, value);
-    PlateGroup group{.value = value, .tests = read_plates(csv, only, asked.diameter), .fit = {}};
+    PlateGroup group{.value = value, .tests = read_plates(csv, table, only, asked.diameter), .fit = {}};
     if (group.tests.empty()) continue;  // --only leaves nothing of it
     try {
       group.fit = fit_measured_plates(group.tests, asked.window);

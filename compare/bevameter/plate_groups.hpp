@@ -59,8 +59,8 @@ struct PlateGroups {
   std::optional<PlatesAtDensity> at{};  ///< and what is found there
 };
 
-/// The weighted line of ln y over ln rho, errors by what the groups scatter about it where that is more than their own,
-/// with Student's t. `errors`: of ln y. Throws InputError for fewer than three densities.
+/// The line of ln y over ln rho, all groups with one weight, errors by what the groups scatter about it where that is
+/// more than their own, with Student's t. `errors`: of ln y. Throws InputError for fewer than three densities.
 PowerOfDensity fit_power_of_density(const std::vector<double>& densities, const std::vector<double>& values,
                                     const std::vector<double>& errors);
 

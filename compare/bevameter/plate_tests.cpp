@@ -255,7 +255,12 @@ void need_forces_that_agree(const std::vector<const CsvRow*>& rows, const std::v
 std::vector<MeasuredPlate> read_plates(const SourceText& csv,
                                        const std::vector<std::pair<std::string, std::string>>& only,
                                        std::optional<double> diameter) {
-  const CsvTable table = parse_csv(csv, most_plate_rows);
+  return read_plates(csv, parse_csv(csv, most_plate_rows), only, diameter);
+}
+
+std::vector<MeasuredPlate> read_plates(const SourceText& csv, const CsvTable& table,
+                                       const std::vector<std::pair<std::string, std::string>>& only,
+                                       std::optional<double> diameter) {
   const std::vector<PlateColumn> columns = columns_of(table);
   need_columns(columns, table, csv, diameter.has_value());
   const std::vector<const CsvRow*> rows = rows_of(table, csv, only);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bekker_wong/plate_fit.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::compare {
@@ -37,5 +38,9 @@ inline constexpr std::size_t most_plate_rows = 1'000'000;
 std::vector<MeasuredPlate> read_plates(const SourceText& csv,
                                        const std::vector<std::pair<std::string, std::string>>& only = {},
                                        std::optional<double> diameter = std::nullopt);
+/// Reads the rows of a file that is parsed already; `table`: its cells.
+std::vector<MeasuredPlate> read_plates(const SourceText& csv, const CsvTable& table,
+                                       const std::vector<std::pair<std::string, std::string>>& only,
+                                       std::optional<double> diameter);
 
 }  // namespace soilbin::compare

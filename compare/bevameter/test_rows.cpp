@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 #include "compare/report/number_text.hpp"
 #include "scenario/errors.hpp"
@@ -25,8 +26,9 @@ std::size_t place_of_column(const std::string& flag, const std::string& name, co
 
 std::vector<std::string> different_values(const CsvTable& table, std::size_t column) {
   std::vector<std::string> values;
+  std::set<std::string_view> known;
   for (const CsvRow& row : table.rows)
-    if (std::ranges::find(values, row.cells[column].text) == values.end()) values.push_back(row.cells[column].text);
+    if (known.insert(row.cells[column].text).second) values.push_back(row.cells[column].text);
   return values;
 }
 
@@ -34,10 +36,9 @@ std::vector<std::string> different_values(const CsvTable& table, std::size_t col
 std::size_t place_of_wanted(const std::string& name, const std::string& value, const CsvTable& table,
                             const SourceText& csv) {
   const std::size_t column = place_of_column("--only", name, table, csv);
-  const std::vector<std::string> values = different_values(table, column);
-  if (std::ranges::find(values, value) == values.end())
-    throw InputError(
-        fmt::format("--only: no row of {} has {} '{}'{}", csv.file, name, clipped(value), did_you_mean(value, values)));
+  if (std::ranges::none_of(table.rows, [&](const CsvRow& row) { return row.cells[column].text == value; }))
+    throw InputError(fmt::format("--only: no row of {} has {} '{}'{}", csv.file, name, clipped(value),
+                                 did_you_mean(value, different_values(table, column))));
   return column;
 }
 
@@ -71,9 +72,8 @@ std::vector<const CsvRow*> rows_of(const CsvTable& table, const SourceText& csv,
   return rows;
 }
 
-std::vector<std::string> values_of_column(const SourceText& csv, const std::string& flag, const std::string& column) {
-  constexpr std::size_t most_rows = 1'000'000;
-  const CsvTable table = parse_csv(csv, most_rows);
+std::vector<std::string> values_of_column(const CsvTable& table, const SourceText& csv, const std::string& flag,
+                                          const std::string& column) {
   return different_values(table, place_of_column(flag, column, table, csv));
 }
 

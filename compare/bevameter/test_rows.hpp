@@ -29,7 +29,8 @@ std::vector<const CsvRow*> rows_of(const CsvTable& table, const SourceText& csv,
                                    const std::vector<std::pair<std::string, std::string>>& only);
 
 /// What a column holds, each value once, in the order of the file. Throws InputError that names the flag.
-std::vector<std::string> values_of_column(const SourceText& csv, const std::string& flag, const std::string& column);
+std::vector<std::string> values_of_column(const CsvTable& table, const SourceText& csv, const std::string& flag,
+                                          const std::string& column);
 
 /// Throws InputError where the column, which has no unit and so tells tests apart, changes from row to row: a note, or
 /// a number without its unit, would make a test of each reading.
