@@ -168,7 +168,8 @@ int tell(const compare::FailureMapResult& result, const compare::MapGrains& grai
 
 int failure_map(FailureMapOptions& asked, CLI::App& command, const Session& session) {
   Case question = find_study(session.place, asked.study);
-  const bool grains_asked = asked.of == "dem" || asked.against == "dem";
+  const bool grains_asked = read_word<ModelKind>("--of", asked.of) == ModelKind::dem ||
+                            read_word<ModelKind>("--against", asked.against) == ModelKind::dem;
   read_word<compare::Incline>("--incline", asked.incline);  // refused before a map of that incline is looked for
   if (asked.stored) {
     if (asked.store.empty())

@@ -27,7 +27,7 @@ MobilityFactors factors_of(const Vehicle& v) {
   return {.contact_pressure = pounds / (width * radius * v.tires),
           .weight = weight_factor(pounds / 1000 / v.axles),
           .tire = (10.0 + width) / 100.0,
-          .grouser = v.chains == Chains::yes ? 1.05 : 1.0,
+          .grouser = v.chains == YesNo::yes ? 1.05 : 1.0,
           .wheel_load = pounds / 1000 / (2.0 * v.axles),
           .clearance = v.clearance / inch / 10.0,
           .engine = v.power / horsepower / tons >= 10.0 ? 1.0 : 1.05,

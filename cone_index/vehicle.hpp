@@ -16,17 +16,14 @@
 
 #include "scenario/description.hpp"
 #include "scenario/source_text.hpp"
+#include "scenario/yes_no.hpp"
 
 namespace soilbin::cone_index {
 
 enum class Transmission { automatic, manual };
-enum class Chains { no, yes };
 
 constexpr std::array<Word<Transmission>, 2> words_of(std::type_identity<Transmission>) {
   return {{{"automatic", Transmission::automatic}, {"manual", Transmission::manual}}};
-}
-constexpr std::array<Word<Chains>, 2> words_of(std::type_identity<Chains>) {
-  return {{{"no", Chains::no}, {"yes", Chains::yes}}};
 }
 
 /// A self-propelled wheeled vehicle, all of whose tires are alike.
@@ -41,7 +38,7 @@ struct Vehicle {
   double clearance = 0.0;             ///< least height over the ground [m], >= 0
   double power = 0.0;                 ///< of the engine [W], > 0
   Transmission transmission = Transmission::automatic;
-  Chains chains = Chains::no;
+  YesNo chains = YesNo::no;
   std::optional<double> section_height{};  ///< h of the tire [m], > 0
   std::optional<double> deflection{};      ///< delta on firm ground [m], > 0, below h
   std::optional<double> mmp_factor{};      ///< K of the mean maximum pressure, over delta/d; absent: by rowlands_factor

@@ -5,6 +5,7 @@
 //   for (const VehicleWheel& wheel : wheels_of(truck)) fmt::print("{} at {:.2f} m\n", wheel.name, wheel.place.x);
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -12,6 +13,7 @@
 
 #include "compare/doubts/declared_tire.hpp"
 #include "scenario/case.hpp"
+#include "scenario/yes_no.hpp"
 
 namespace soilbin::compare {
 
@@ -27,13 +29,9 @@ enum class DriveLine {
   open_axles,  ///< the axles have the same mean rim speed; across an axle the torque is the same
   motors,      ///< a motor a wheel: one rim speed is asked of all, and each gives no more than its largest torque
 };
-enum class YesNo { no, yes };
 
 constexpr std::array<Word<DriveLine>, 3> words_of(std::type_identity<DriveLine>) {
   return {{{"locked", DriveLine::locked}, {"open_axles", DriveLine::open_axles}, {"motors", DriveLine::motors}}};
-}
-constexpr std::array<Word<YesNo>, 2> words_of(std::type_identity<YesNo>) {
-  return {{{"no", YesNo::no}, {"yes", YesNo::yes}}};
 }
 
 /// Two wheels beside each other, or one.

@@ -54,7 +54,7 @@ TEST(VehicleConeIndex, CountsChainsGearsAndAWeakEngine) {
   Vehicle manual = hmmwv(), weak = hmmwv(), chained = hmmwv();
   manual.transmission = Transmission::manual;
   weak.power = 67 * horsepower;  // 6.725 tons: 9.96 hp a ton
-  chained.chains = Chains::yes;
+  chained.chains = YesNo::yes;
   EXPECT_NEAR(vehicle_cone_index(manual).mobility_index, 1.05 * plain, 1e-9);
   EXPECT_NEAR(vehicle_cone_index(weak).mobility_index, 1.05 * plain, 1e-9);
   EXPECT_LT(vehicle_cone_index(chained).mobility_index, plain);
