@@ -3,7 +3,8 @@
     PYTHONPATH=build/release/python /usr/bin/python3 bench/what_lugs_bring.py [LUGGED.json SMOOTH.json]
 
 Reads the records of heavy-lugged-incline and heavy-smooth-incline (cases/studies/recorded) and prints Markdown tables,
-a row a condition that both have on one bed sample. Both tires run on one bed at one slip of the tread base, so that
+a row a condition that both have on one bed sample; then, of the conditions that heavy-lugged-17mm and heavy-smooth-17mm
+have too, a row a grain size. Both tires run on one bed at one slip of the tread base, so that
 what beds differ by cancels. "Infinitely fine" is by the twins with grains 1.4 times as large, D + (D - D_coarser)/0.4. ± is
 one standard error of the runs' fluctuations.
 """
@@ -19,7 +20,15 @@ from soilbin.bekker_wong import BekkerWong
 
 FORMS = ("passive_blade", "shear_radius_own_slip", "side_factors", "free_blade", "level_blade")
 RECORDED = Path(__file__).parent.parent / "cases/studies/recorded"
+PAIRS = [[RECORDED / f"heavy-{tire}-{grains}.json" for tire in ("lugged", "smooth")] for grains in ("incline", "17mm")]
+LUG_HEIGHT = 0.045
 CONDITION = ("load", "slip", "speed", "longitudinal_incline", "transverse_incline", "yaw")
+
+
+def grain_diameter(record):
+    """Mean diameter of the grains under the wheel [m]."""
+    inputs = json.loads(Path(record).read_text())["inputs"]
+    return float(inputs["bed.radius_min"]) + float(inputs["bed.radius_max"])
 
 
 def answers(record):
@@ -57,12 +66,46 @@ def place(key):
     return f"| {np.degrees(key[4]):.0f}° | {100 * key[2]:.0f} % "
 
 
+def at_no_size(diameters, values, errors):
+    """Where the straight line through the values of several grain sizes meets 0, its standard error, and chi2."""
+    weights = 1 / np.asarray(errors)
+    design = np.column_stack([np.ones(len(values)), diameters]) * weights[:, None]
+    covariance = np.linalg.inv(design.T @ design)
+    found = covariance @ design.T @ (values * weights)
+    return found[0], np.sqrt(covariance[0, 0]), np.sum((design @ found - values * weights)**2)
+
+
+def print_by_grain_size(pairs):
+    """Prints what lugs bring in each grain size of several pairs of records, where all have a condition."""
+    read = [(grain_diameter(pair[0]), answers(pair[0]), answers(pair[1])) for pair in pairs]
+    shared = set.intersection(*(set(one) for _, *records in read for record in records for one in record))
+    print("\n| slip | grains [mm] | to a lug | pull without, % of the load | with | lugs bring | torque, % | sinkage [mm] |\n"
+          + "|---" * 8 + "|")
+    for key in sorted(shared, key=lambda key: (key[4], key[2])):
+        slip, diameters, pulls = f"| {100 * key[2]:.0f} %", [], []
+        for diameter, lugged, smooth in read:
+            for coarser in (1, 0):
+                with_lugs, without = lugged[coarser][key], smooth[coarser][key]
+                diameters.append(diameter * 1.4**coarser)
+                pulls.append([100 * np.array(one) / key[1] for one in (
+                    *((run["drawbar_pull"], run["std_error"]["drawbar_pull"]) for run in (without, with_lugs)),
+                    change(with_lugs, without, "drawbar_pull"))])
+                torque, sinkage = (change(with_lugs, without, name) for name in ("torque", "sinkage"))
+                told = " | ".join("{:+.1f} ± {:.1f}".format(*pull) for pull in pulls[-1])
+                print(f"{slip} | {1e3 * diameters[-1]:.1f} | {LUG_HEIGHT / diameters[-1]:.1f} | {told} "
+                      f"| {100 * torque[0] / without['torque']:+.0f} ± {100 * torque[1] / without['torque']:.0f} "
+                      f"| {1e3 * without['sinkage']:.0f} {1e3 * sinkage[0]:+.1f} ± {1e3 * sinkage[1]:.1f} |")
+        lines = [at_no_size(diameters, *np.transpose(one)) for one in zip(*pulls)]
+        told = " | ".join("{:+.1f} ± {:.1f} (chi2 {:.1f})".format(*line) for line in lines)
+        print(f"{slip} | 0, by the line | | {told} | | |")
+
+
 def main():
     """Prints what grains say, and what the quick models say beside it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("records", nargs="*", default=[RECORDED / "heavy-lugged-incline.json",
-                                                       RECORDED / "heavy-smooth-incline.json"])
-    (lugged, lugged_coarser), (smooth, smooth_coarser) = map(answers, parser.parse_args().records)
+    parser.add_argument("records", nargs="*", default=PAIRS[0])
+    records = parser.parse_args().records
+    (lugged, lugged_coarser), (smooth, smooth_coarser) = map(answers, records)
     both = sorted(lugged.keys() & smooth.keys(), key=lambda key: (key[0], key[4], key[2]))
     print("| uphill | slip | pull, % of the load | by infinitely fine grains | torque, % | sinkage [mm] "
           "| tractive efficiency, % |\n" + "|---" * 7 + "|")
@@ -94,6 +137,7 @@ def main():
         at = soilbin.OperatingCondition(**dict(zip(CONDITION, key[1:])))
         print(f"{place(key)}| {gain[key]} | "
               + " | ".join("{:+.1f}, {:+.0f} %".format(*said(*pair, at)) for pair in models.values()) + " |")
+    print_by_grain_size([records, PAIRS[1]])
 
 
 if __name__ == "__main__":
