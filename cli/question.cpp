@@ -108,8 +108,8 @@ EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocab
   if (forms.empty())
     throw InputError(fmt::format("--effect: unknown effect '{}'{}\n  hint: see soilbin list effects",
                                  clipped(choice.id), did_you_mean(choice.id, vocabulary.ids())));
-  const EffectFormWords& form =
-      pick_form(choice.id, colon == std::string::npos ? "" : parts.front().substr(colon + 1), forms);
+  const std::string named = colon == std::string::npos ? "" : parts.front().substr(colon + 1);
+  const EffectFormWords& form = pick_form(choice.id, named, forms);
   choice.form = form.form;
   for (const EffectParameterWords& parameter : form.parameters) choice.parameters[parameter.name] = parameter.fallback;
   for (std::size_t i = 1; i < parts.size(); ++i) set_parameter(parts[i], form, exponent_of(soil), choice);

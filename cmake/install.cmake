@@ -42,7 +42,7 @@ install(FILES ${PROJECT_BINARY_DIR}/soilbin-config.cmake ${PROJECT_BINARY_DIR}/s
   DESTINATION ${package_folder} COMPONENT development)
 
 # The archives of CVODES, so that who links ours needs no package that brings MPI and PETSc (cmake/FindSUNDIALS.cmake).
-foreach(archive cvodes nvecserial sunmatrixdense sunlinsoldense)
+foreach(archive IN LISTS SUNDIALS_ARCHIVES)
   install(FILES ${SUNDIALS_${archive}_LIBRARY} DESTINATION ${CMAKE_INSTALL_LIBDIR}/soilbin COMPONENT development)
 endforeach()
 find_file(SUNDIALS_COPYRIGHT copyright NO_DEFAULT_PATH

@@ -1,5 +1,5 @@
 # Sourced by ./check and ./demo: installs what is missing of packaging/debian-packages.txt, and nothing else; of its
-# section [unpacked] it unpacks the files below build/unpacked.
+# section [unpacked] it unpacks the files below build/unpacked. A section [debian-N] is what Debian N needs besides.
 # Usage: set_up SECTION...   Quiet, quick and offline where everything is there.
 
 packages_of() {  # SECTION...: the names of the packages in these sections
@@ -22,24 +22,24 @@ missing_of() {  # PACKAGE...: those that are not installed
 }
 
 # Packages whose files are needed and not what they depend on are unpacked, not installed.
-unpack_packages() {
+unpack_packages() {  # [ARCHITECTURE]: the machine's own
   local name into=$PWD/build/unpacked
   for name in $(packages_of unpacked); do
     [ "$(dpkg-query -W -f='${db:Status-Status}' "$name" 2>/dev/null)" = installed ] && continue
     [ -e "$into/usr/share/doc/$name" ] && continue
     echo "unpacking $name into build/unpacked"
     mkdir -p "$into.new"
-    (cd "$into.new" && apt-get -q download "$name" && dpkg-deb --extract "$name"_*.deb . && rm "$name"_*.deb) || return 1
+    (cd "$into.new" && apt-get -q download "$name${1:+:$1}" && dpkg-deb --extract "$name"_*.deb . && rm "$name"_*.deb) || return 1
     mkdir -p "$into" && cp -a "$into.new/." "$into/" && rm -r "$into.new" || return 1
   done
 }
 
 set_up() {  # SECTION...
   if ! command -v dpkg-query >/dev/null; then
-    echo "set-up installs packages by apt, for Debian 12; elsewhere install what packaging/debian-packages.txt names" >&2
+    echo "set-up installs packages by apt, for Debian 12 and 13; elsewhere install what packaging/debian-packages.txt names" >&2
     return 1
   fi
-  local -a as_root=() missing=($(missing_of $(packages_of "$@")))
+  local -a as_root=() missing=($(missing_of $(packages_of "$@" "debian-$(. /etc/os-release && echo "${VERSION_ID-}")")))
   if [ ${#missing[@]} -eq 0 ]; then
     unpack_packages && echo "all packages are there"
     return

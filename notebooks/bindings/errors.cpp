@@ -47,9 +47,9 @@ void bind_errors(py::module_& module) {
     } catch (const InputError& error) {
       raise_input_error(error);
     } catch (const NoSolution& error) {
-      no_solution(error.what());
+      PyErr_SetString(no_solution.ptr(), error.what());
     } catch (const dem::RunStopped& error) {
-      stopped(error.what());
+      PyErr_SetString(stopped.ptr(), error.what());
     }
   });
 }

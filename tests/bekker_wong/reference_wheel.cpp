@@ -65,7 +65,7 @@ Real Wheel::reversal(Real theta_1) const {
 Wheel::Point Wheel::stress(Real theta, Real since_entry, Real since_exit, Real theta_1) const {
   const Real theta_m = theta_m_share_ * theta_1;
   // rear: theta_1 - theta_e, by the conventions' mapping of theta onto the front
-  const Real from_entry = theta > theta_m ? since_entry : since_exit / theta_m * (theta_1 - theta_m);
+  const Real from_entry = theta >= theta_m ? since_entry : since_exit / theta_m * (theta_1 - theta_m);
   const Real depth = 2 * r_ * std::sin(theta_1 - from_entry / 2) * std::sin(from_entry / 2);
   Point p{};
   p.sigma = k_ * std::pow(depth, n_);

@@ -1,6 +1,6 @@
+#include <hwy/highway.h>
 #include <hwy/targets.h>
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -9,22 +9,22 @@
 
 namespace soilbin::dem {
 
-// As the kernels' files name them, by what Highway calls each instruction set.
-namespace N_AVX3 {
-void run_pairs(const PairSweep&, std::size_t, std::size_t, PairFindings&);
-void run_touches(const TouchSweep&, TouchBatch&, int);
-void find_near_rows(const NearSweep&, std::uint32_t, const RowRun*, int, NearRows&);
-}  // namespace N_AVX3
-namespace N_AVX2 {
-void run_pairs(const PairSweep&, std::size_t, std::size_t, PairFindings&);
-void run_touches(const TouchSweep&, TouchBatch&, int);
-void find_near_rows(const NearSweep&, std::uint32_t, const RowRun*, int, NearRows&);
-}  // namespace N_AVX2
-namespace N_SSE4 {
-void run_pairs(const PairSweep&, std::size_t, std::size_t, PairFindings&);
-void run_touches(const TouchSweep&, TouchBatch&, int);
-void find_near_rows(const NearSweep&, std::uint32_t, const RowRun*, int, NearRows&);
-}  // namespace N_SSE4
+// The kernels of one instruction set, in the namespace that Highway has for it.
+#define SOILBIN_KERNELS(SET)                                                           \
+  namespace SET {                                                                      \
+  void run_pairs(const PairSweep&, std::size_t, std::size_t, PairFindings&);           \
+  void run_touches(const TouchSweep&, TouchBatch&, int);                               \
+  void find_near_rows(const NearSweep&, std::uint32_t, const RowRun*, int, NearRows&); \
+  }
+#if HWY_ARCH_X86
+SOILBIN_KERNELS(N_AVX3)
+SOILBIN_KERNELS(N_AVX2)
+SOILBIN_KERNELS(N_SSE4)
+#elif HWY_ARCH_ARM
+SOILBIN_KERNELS(N_NEON)
+#else
+SOILBIN_KERNELS(HWY_NAMESPACE)
+#endif
 
 namespace {
 
@@ -34,10 +34,19 @@ struct Choice {
   Kernels kernels;
 };
 
-constexpr std::array<Choice, 3> choices = {
-    {{"avx512", HWY_AVX3, {N_AVX3::run_pairs, N_AVX3::run_touches, N_AVX3::find_near_rows}},
-     {"avx2", HWY_AVX2, {N_AVX2::run_pairs, N_AVX2::run_touches, N_AVX2::find_near_rows}},
-     {"sse4", HWY_SSE4, {N_SSE4::run_pairs, N_SSE4::run_touches, N_SSE4::find_near_rows}}}};
+#if HWY_ARCH_X86
+constexpr Choice choices[] = {{"avx512", HWY_AVX3, {N_AVX3::run_pairs, N_AVX3::run_touches, N_AVX3::find_near_rows}},
+                              {"avx2", HWY_AVX2, {N_AVX2::run_pairs, N_AVX2::run_touches, N_AVX2::find_near_rows}},
+                              {"sse4", HWY_SSE4, {N_SSE4::run_pairs, N_SSE4::run_touches, N_SSE4::find_near_rows}}};
+#else
+constexpr std::int64_t any = -1;  // the one set that there is, compiled for every machine of the kind
+#if HWY_ARCH_ARM
+constexpr Choice choices[] = {{"neon", any, {N_NEON::run_pairs, N_NEON::run_touches, N_NEON::find_near_rows}}};
+#else
+constexpr Choice choices[] = {
+    {"portable", any, {HWY_NAMESPACE::run_pairs, HWY_NAMESPACE::run_touches, HWY_NAMESPACE::find_near_rows}}};
+#endif
+#endif
 
 }  // namespace
 
