@@ -14,6 +14,10 @@ import sys
 import time
 from pathlib import Path
 
+from nature import campaign
+from nature.wheel import CHANNELS, SOIL_KEYS
+from places import LARGE, Places, SoilErrors, fails_at, rows_of
+
 KINDS = ("one_rich", "one_poor", "outliers", "two")
 
 
@@ -117,7 +121,47 @@ def report_kind(kind, cases):
     print("  baseline refit only    no name; removable error removed 0 %")
 
 
-def report(truth, answers):
+def changed_rows(found, folder):
+    """Runs at which the effects of the saved model change a channel by more than LARGE times its noise; None without package."""
+    try:
+        from fitting import Campaign, changed
+    except ImportError:
+        return None
+    readings = Campaign(folder)
+    if not found["soil"]:  # nothing is named, and nothing stands in
+        return rows_of([], len(readings.at))
+    noise = [found["error"].get(c, {}).get("noise_floor", math.nan) for c in CHANNELS]
+    effects = [(e["id"], e["form"], e["parameters"]) for e in found["effects"] or found["stand_in"]]
+    return changed(readings, [found["soil"][k]["value"] for k in SOIL_KEYS], effects, noise, LARGE)
+
+
+def report_soil_and_places(cases):
+    """How far off the fitted soil is without and with the effects, and whether the runs at which the model fails are found.
+
+    cases: (truth, answer, folder); those with something hidden count, for the soil where the answer tells one.
+    """
+    soils, places = {name: SoilErrors() for name in ("without", "value", "right without", "right value")}, Places()
+    for truth, found, folder in cases:
+        record = campaign.read(folder)
+        if not record["effects"]:
+            continue
+        for key in ("without", "value") if found["soil"] else ():
+            soil = {k: v[key] for k, v in found["soil"].items()}
+            soils[key].add(record, soil)
+            if truth["effects"] and named(found) == set(truth["effects"]):
+                soils["right " + key].add(record, soil)
+        true = fails_at(record)
+        said = rows_of(found["changed"], len(true)) if "changed" in found else changed_rows(found, folder)
+        if said is not None:
+            places.add(said, true)
+    print("  soil without effects  ", soils["without"].words())
+    print("  soil with them        ", soils["value"].words())
+    print("  names right: without  ", soils["right without"].words())
+    print("  names right: with     ", soils["right value"].words())
+    print("  where the model fails ", places.words() if places.runs else "asks for PYTHONPATH=build/release/python")
+
+
+def report(truth, answers, folder):
     """The whole table."""
     good = [(truth[n], a) for n, a in answers.items() if "verdict" in a]
     print(f"{len(good)} campaigns answered, {len(answers) - len(good)} failed; "
@@ -133,6 +177,7 @@ def report(truth, answers):
     unknown = [(t, a) for t, a in good if t["verdict"] == "unknown_effect"]
     print("unknown flagged          ", interval(sum(a["verdict"] == "unknown_effect" for _, a in unknown), len(unknown)))
     after, removed = held_out(good)
+    report_soil_and_places([(truth[n], a, folder / n) for n, a in answers.items() if "verdict" in a])
     print(f"all accepted: held-out error/noise {after:.2f}, removable error removed {100 * removed:.0f} % (medians)")
 
 
@@ -149,7 +194,7 @@ def main():
         answers = dict(zip(sorted(truth), pool.map(lambda n: answer(options.soilbin, options.folder / n), sorted(truth))))
     if options.answers:
         options.answers.write_text(json.dumps(answers, indent=1))
-    report(truth, answers)
+    report(truth, answers, options.folder)
     failed = [f"{n}: {a['error']}\n" for n, a in answers.items() if "verdict" not in a]
     sys.stderr.write("".join(failed))
     return 1 if failed else 0
