@@ -60,7 +60,7 @@ void add_plates(CLI::App& app, Session& session) {
   add_value(*command, "--by", options->by, "COLUMN",
             "fits each of the column's values apart: preparations, densities, boxes");
   add_value(*command, "--density", options->density, "DENSITY",
-            "with --by: n and k at this dry density, from three or more in a column dry_density_kg/m^3");
+            "with --by: n, k_c and k_phi at this dry density, from two or more in a column dry_density_kg/m^3");
   add_value(*command, "--pressure", options->pressure, "LOW..HIGH",
             "readings that are used; best those that your wheel makes");
   add_value(*command, "--plate", options->plate, "DIAMETER",

@@ -11,6 +11,7 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/beds.hpp"
 #include "scenario/condition_axes.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/soil_parameters.hpp"
@@ -127,7 +128,7 @@ compare::Doubts joined_doubts(compare::Doubts notes, const Case& question,
 AnalyticSoil::AnalyticSoil(const std::string& named, const Library& library, Soil& soil) : own_(soil.name) {
   if (named.empty()) return;
   const Soil given = find_soil(named, library);
-  soil.semi_empirical = given.semi_empirical;
+  soil.semi_empirical = given.semi_empirical, soil.beds = given.beds, soil.bed_density = given.bed_density;
   values_of_ = given.name.empty() ? named : given.name;
 }
 
@@ -207,6 +208,15 @@ Study ConditionFlags::picked(const Flags& flags, const Study& study, const Tire&
   return kept;
 }
 
+void pick_bed(Soil& soil, const std::string& density) {
+  const double asked = read_flag("--density", density, {"kg/m^3", above_zero});
+  try {
+    set_density(soil, asked);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--density: {}", error.what()));
+  }
+}
+
 void SoilFlags::add_to(CLI::App& app, const std::string& heading) {
   const auto add = [&](const char* key, const std::string& unit, const char* meaning) {
     add_value(app, flag_of("", key), texts_[key], unit, meaning)->group(heading);
@@ -227,24 +237,33 @@ void SoilFlags::apply(Soil& soil) const {
         fmt::format("soil '{}' has values for grains alone: a flag such as --friction-angle has nothing to change\n"
                     "  hint: begin with another --soil",
                     clipped(soil.name)));
+  put_exact_values(soil);
   SemiEmpiricalSoil& values = *soil.semi_empirical;
+  bool changed = soil.beds.empty() || !texts_.at("gravity").empty();
   for (const SoilParameter& p : soil_parameters)  // n first: the units of k_c and k_phi depend on it
     if (const std::string& text = texts_.at(p.name); !text.empty()) {
       const double before = (values.*p.value).value;
       set_value(p, text, values);
+      changed = true;
       if (p.value != &SemiEmpiricalSoil::exponent || values.exponent.value != before)  // a doubt asks whether n changed
         values.sources[p.name] = command_line_source;
     }
-  for (const ExactSoilValue& exact : exact_soil_values)
-    if (const std::string& text = texts_.at(exact.name); !text.empty()) {
-      if (!value_and_deviation(text).second.empty())
-        throw InputError(fmt::format("--{0}: a {0} has no standard deviation here\n  hint: such as --{0} {1}",
-                                     exact.name, exact.example));
-      values.*exact.value = read_flag(flag_of("", exact.name), text, exact.measure());
-      values.sources[exact.name] = command_line_source;
-    }
   if (soil.granular) soil.granular->gravity = values.gravity;
-  soil.name += ", changed";
+  if (changed) soil.name += ", changed";
+}
+
+void SoilFlags::put_exact_values(Soil& soil) const {
+  for (const ExactSoilValue& exact : exact_soil_values) {
+    const std::string& text = texts_.at(exact.name);
+    if (text.empty()) continue;
+    if (!value_and_deviation(text).second.empty())
+      throw InputError(fmt::format("--{0}: a {0} has no standard deviation here\n  hint: such as --{0} {1}", exact.name,
+                                   exact.example));
+    const double value = read_flag(flag_of("", exact.name), text, exact.measure());
+    if (exact.value == &SemiEmpiricalSoil::density && !soil.beds.empty()) pick_bed(soil, text);
+    (*soil.semi_empirical).*exact.value = value;
+    soil.semi_empirical->sources[exact.name] = command_line_source;
+  }
 }
 
 Question::Question(CLI::App& app, std::vector<std::string> needed, const std::vector<std::string>& without)

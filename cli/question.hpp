@@ -105,6 +105,10 @@ class AnalyticSoil {
   std::string own_, values_of_;
 };
 
+/// Asks about another bed of a soil (scenario/beds.hpp) by the text of --density. Throws InputError that names the
+/// flag.
+void pick_bed(Soil& soil, const std::string& density);
+
 /// Flags for a soil's own values: "--friction-angle 30deg", "--k-phi '1500+-200 kN/m^(n+2)'", named as in a soil file.
 class SoilFlags {
  public:
@@ -113,12 +117,15 @@ class SoilFlags {
 
   bool any_given() const;
 
-  /// Puts the values that were given in place of the soil's. A value without "+-" (or "±") keeps the soil's standard
-  /// deviation. The soil's name then ends in ", changed", and the values' source is the command line. Throws InputError
-  /// that names the flag, or says that the soil has values for grains alone.
+  /// Puts the values that were given in place of the soil's; of a soil with beds, --density first picks the bed. A
+  /// value without "+-" (or "±") keeps the soil's standard deviation. The soil's name then ends in ", changed", and the
+  /// values' source is the command line. Throws InputError that names the flag, or says that the soil has values for
+  /// grains alone.
   void apply(Soil& soil) const;
 
  private:
+  void put_exact_values(Soil& soil) const;
+
   std::map<std::string, std::string> texts_;  ///< by the key of a soil file
 };
 

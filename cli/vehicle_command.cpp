@@ -17,7 +17,7 @@ namespace soilbin::cli {
 namespace {
 
 struct VehicleOptions {
-  std::string file, soil, map;
+  std::string file, soil, density, map;
   unsigned samples = 50;
   compare::TireLeftOut left_out;
   DescribedFlags<compare::VehicleCondition> condition;
@@ -49,6 +49,7 @@ int vehicle(const VehicleOptions& options, const Session& session) {
   compare::VehicleCase question = compare::parse_vehicle_case(read_source_text(options.file, largest_yaml),
                                                               session.place.library, session.place.effects);
   if (!options.soil.empty()) question.soil = find_soil(options.soil, session.place.library);
+  if (!options.density.empty()) pick_bed(question.soil, options.density);
   options.condition.apply(question.condition);
   std::vector<compare::VehicleWheel> wheels = wheels_of(question);
   compare::Doubts notes = declare_tires(wheels, options.left_out);
@@ -71,6 +72,7 @@ void add_vehicle(CLI::App& app, Session& session) {
   const auto options = std::make_shared<VehicleOptions>();
   add_value(*command, "file", options->file, "FILE.yaml", "a vehicle on a soil (soilbin-vehicle-case/1)")->required();
   add_value(*command, "--soil", options->soil, "NAME|FILE", "in place of the file's soil");
+  add_value(*command, "--density", options->density, "kg/m^3", "of the bed, of a soil with several");
   options->condition.add_to(*command, "Condition");
   command->add_flag("--rigid", options->left_out.pressure, "rigid wheels, whatever pressure the tires declare")
       ->group("Model");

@@ -241,7 +241,11 @@ void describe(Visitor& v, std::type_identity<Soil>) {
   v.text("name", &Soil::name, Need::optional, "what to call the soil");
   v.text("source", &Soil::source, Need::optional, "where the soil as a whole is described");
   v.number("moisture", &Soil::moisture, Measure{"%", fractions}, Need::optional, "water content by mass");
+  v.number("density", &Soil::bed_density, Measure{"kg/m^3", above_zero}, Need::optional,
+           "of the bed that is asked about, where 'beds' holds several");
   v.group("semi_empirical", &Soil::semi_empirical, Need::optional, "values of the Bekker / Wong-Reece model");
+  v.list("beds", &Soil::beds, Need::optional,
+         "the same at several densities, loosest first; without 'semi_empirical' its values are those at 'density'");
   v.group("granular", &Soil::granular, Need::optional, "grains of the discrete element model");
   v.group("resistive_force", &Soil::resistive_force, Need::optional, "values of resistive force theory (model rft)");
   v.number("cone_index", &Soil::cone_index, Measure{"kPa", above_zero}, Need::optional,
@@ -250,7 +254,14 @@ void describe(Visitor& v, std::type_identity<Soil>) {
            "of sand: by how much the cone index grows with depth (model cone_index)");
 }
 
+/// "'beds' needs two or more"; "" for a soil without beds, or with beds that say what it is at its density (beds.hpp).
+std::string wrong_in_beds(const Soil& soil);
+
+/// Puts the values of the bed that is asked about into a soil that has several and no values of its own.
+void fill_in(Soil& soil, const std::function<bool(const char*)>& given);
+
 inline std::string contradiction(const Soil& soil) {
+  if (const std::string wrong = wrong_in_beds(soil); !wrong.empty()) return wrong;
   if (!soil.semi_empirical && !soil.granular && !soil.resistive_force && !soil.cone_index && !soil.cone_index_gradient)
     return "a soil needs 'semi_empirical', 'granular', 'resistive_force', 'cone_index' or 'cone_index_gradient'";
   if (soil.cone_index && soil.cone_index_gradient)

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "scenario/beds.hpp"
 #include "scenario/case.hpp"
 #include "scenario/mapping_reader.hpp"
 #include "scenario/nearest_word.hpp"
@@ -97,9 +98,33 @@ T find_by_name(const std::string& name, const Library& library) {
   throw InputError(not_found<T>(name, library) + "\n  hint: " + names_hint<T>(library));
 }
 
+/// Refuses a node for an error that knows no place.
+[[noreturn]] void refuse_for(const InputError& error, const YamlNode& node, const Reading& reading) {
+  const std::string told = error.what();
+  const std::size_t hint = told.find("\n  hint: ");
+  reading.refuse(node, told.substr(0, hint), hint == std::string::npos ? "" : told.substr(hint + 9));
+}
+
+/// {from: cullinan-sand, density: 1450 kg/m^3}.
+Soil read_bed(const YamlNode& node, const Library& library, const Reading& reading) {
+  expect_keys(node, {"from", "density"}, reading);
+  const YamlNode& from = *value_of(node, "from", Need::required, "a soil with 'beds'", reading);
+  const YamlNode& density = *value_of(node, "density", Need::required, "of the bed that is asked about", reading);
+  Soil soil = read_soil_part(from, library, reading);
+  const double asked = read_scalar(density, {"kg/m^3", above_zero}, reading).value;
+  try {
+    set_density(soil, asked);
+  } catch (const InputError& error) {
+    refuse_for(error, density, reading);
+  }
+  return soil;
+}
+
 /// A tire or soil of a case: a mapping, a name of the library, or a path relative to the case file.
 template <class T>
 T read_part(const YamlNode& node, const Library& library, const Reading& reading) {
+  if constexpr (std::is_same_v<T, Soil>)
+    if (names_a_bed(node)) return read_bed(node, library, reading);
   if (node.is_mapping()) return read_checked<T>(node, reading);
   if (!node.is_scalar())
     reading.refuse(node, fmt::format("expected a {}: a mapping, a name of the library, or a path; not {}",
@@ -112,15 +137,15 @@ T read_part(const YamlNode& node, const Library& library, const Reading& reading
   try {
     if (auto sized = find_by_size<T>(name, library)) return *std::move(sized);
   } catch (const InputError& error) {
-    const std::string told = error.what();
-    const std::size_t hint = told.find("\n  hint: ");
-    reading.refuse(node, told.substr(0, hint), told.substr(hint + 9));
+    refuse_for(error, node, reading);
   }
   if (looks_like_path(name)) reading.refuse(node, fmt::format("no such {} file", Kind<T>::word));
   reading.refuse(node, not_found<T>(name, library), names_hint<T>(library));
 }
 
 }  // namespace
+
+bool names_a_bed(const YamlNode& node) { return node.is_mapping() && node.find("from") != nullptr; }
 
 Tire read_tire_part(const YamlNode& node, const Library& library, const Reading& reading) {
   return read_part<Tire>(node, library, reading);

@@ -134,6 +134,15 @@ ordered_json named_or(ordered_json inline_part) {
   return {{"anyOf", ordered_json::array({name, std::move(inline_part)})}};
 }
 
+ordered_json soil_part_schema(ordered_json inline_part) {
+  ordered_json bed = empty_object_schema(), any = named_or(std::move(inline_part));
+  bed["properties"] = {{"from", text_schema("a soil with 'beds': a name of the library, or a relative path")},
+                       {"density", quantity_schema({"kg/m^3", above_zero}, "of the bed that is asked about")}};
+  bed["required"] = {"from", "density"};
+  any["anyOf"].push_back(std::move(bed));
+  return any;
+}
+
 ordered_json empty_object_schema() {
   return {{"type", "object"},
           {"additionalProperties", false},
@@ -205,7 +214,7 @@ ordered_json effects_schema(const EffectVocabulary& effects) {
 ordered_json case_schema(const EffectVocabulary& effects) {
   ordered_json object = object_schema<Case>();
   object["properties"]["tire"] = named_or(object_schema<Tire>());
-  object["properties"]["soil"] = named_or(object_schema<Soil>());
+  object["properties"]["soil"] = soil_part_schema(object_schema<Soil>());
   object["properties"]["bin"] = object_schema<Bin>();
   object["properties"]["study"] = study_schema(effects);
   object["properties"]["drive"] = object_schema<Drive>();

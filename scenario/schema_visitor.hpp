@@ -19,6 +19,8 @@ nlohmann::ordered_json words_schema(const std::vector<std::string>& words, const
 nlohmann::ordered_json text_schema(const std::string& meaning);
 /// A tire or soil that a case names, or writes out.
 nlohmann::ordered_json named_or(nlohmann::ordered_json inline_part);
+/// A soil likewise, and of one with beds {from, density}.
+nlohmann::ordered_json soil_part_schema(nlohmann::ordered_json inline_part);
 /// A file of this format that holds an object.
 nlohmann::ordered_json document_schema(const char* format, const char* title, nlohmann::ordered_json object);
 /// An object with no other keys than those added to "properties".
@@ -88,7 +90,7 @@ class SchemaOf {
   }
 
   void part(const char* key, std::optional<Soil> T::*, Need need, const char* meaning) {
-    nlohmann::ordered_json soil = named_or(object_schema<Soil>());
+    nlohmann::ordered_json soil = soil_part_schema(object_schema<Soil>());
     soil["description"] = meaning;
     add(key, need, std::move(soil));
   }

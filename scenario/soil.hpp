@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
@@ -119,6 +120,8 @@ struct Soil {
   /// Of sand: by how much the cone index grows with depth [Pa/m], > 0.
   std::optional<Estimate> cone_index_gradient{};
   std::optional<double> moisture;                ///< water content by mass [-]
+  std::vector<SemiEmpiricalSoil> beds{};         ///< measured at several densities, loosest first (beds.hpp)
+  std::optional<double> bed_density{};           ///< of the bed between them that semi_empirical is of [kg/m^3]
   std::string source{};                          ///< where the soil as a whole is described
   std::map<std::string, std::string> sources{};  ///< where single numbers beside the two sections come from
 };

@@ -6,8 +6,9 @@
 First table: some tests of a bed are fitted, one more test of each plate is held against the fit. For n, k_c and k_phi
 (k where one size of plate was pressed, both at the n of the fitted tests) it prints the root mean square of how far the
 others are off, that of the errors `between tests` that were told, and the ratio of the two: 1 is right, above 1 the
-errors are too small. Second table: Cullinan sand; each density is left out and predicted from the other two, by a power
-of the density through n and the pressure at z = b; and each re-test from the rest of its bed.
+errors are too small. Second table: Cullinan sand; each density is left out and asked of the other two (`plates --by
+--density`), as a soil file of these two beds would give it, with n and k erring independently; and each re-test from the
+rest of its bed.
 """
 import csv
 import itertools
@@ -137,37 +138,61 @@ def state(soilbin, tests):
             "P_sd": math.hypot(k["between_tests"], k["between_readings"]) / k["value"]}
 
 
-def held(name, known, tests, depths=(5, 10, 20, 40, 79)):
-    """Predicted pressure, and what was measured over it, at some depths [mm]."""
+def held(name, sinks, tests, depths=(5, 10, 20, 40, 79)):
+    """Predicted pressure with its error, and what was measured, at some depths [mm]; sinks(z) gives p [Pa], sd of ln p."""
     cells = []
     for depth in depths:
         near = [p for _, p in sorted((abs(z - depth), p) for z, p in next(iter(tests.values())))[:3]]
-        ratio = math.log(depth / 1e3 / known["b"])
-        predicted = known["P"] / 1e3 * math.exp(known["n"] * ratio)
-        sd = math.hypot(known["P_sd"], ratio * math.hypot(known["n_sd"], known["n_bend"]))
-        measured = sorted(near)[1]
-        cells.append(f"{measured:.0f} | {predicted:.0f} ± {100 * sd:.0f} % ({math.log(measured / predicted) / sd:+.1f})")
+        predicted, sd = sinks(depth / 1e3)
+        measured = 1e3 * sorted(near)[1]
+        cells.append(f"{measured / 1e3:.0f} | {predicted / 1e3:.0f} ± {100 * sd:.0f} % "
+                     f"({math.log(measured / predicted) / sd:+.1f})")
     print(f"| {name} | " + " | ".join(cells) + " |", flush=True)
+
+
+def by_state(known):
+    """Pressure by n and P at z = b, which err independently."""
+    def sinks(z):
+        ratio = math.log(z / known["b"])
+        return known["P"] * math.exp(known["n"] * ratio), math.hypot(known["P_sd"],
+                                                                     ratio * math.hypot(known["n_sd"], known["n_bend"]))
+    return sinks
+
+
+def by_beds(soilbin, beds, density):
+    """Pressure at a density between or beyond beds, {density: tests}, by n and k as a soil file has them; None where
+    soilbin refuses to tell."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "beds.csv"
+        text = "bed,dry_density_kg/m^3,test,plate_diameter_mm,sinkage_mm,pressure_kPa\n"
+        for rho, tests in beds.items():
+            for (test, diameter), readings in tests.items():
+                for sinkage, pressure in readings:
+                    text += f"{rho},{rho},{test},{diameter:.6g},{sinkage:.6g},{pressure:.6g}\n"
+        path.write_text(text, encoding="utf-8")
+        answer = subprocess.run([soilbin, "plates", path, "--by", "bed", "--density", f"{density}kg/m^3", "--json"],
+                                capture_output=True, text=True, check=False)
+    if "out of reach" in answer.stderr:
+        return None
+    at = json.loads(answer.stdout)["at_density"]
+    n, k = at["exponent"], at["modulus"]
+    return lambda z: (k["value"] * z ** n["value"], math.hypot(k["std_error"] / k["value"], math.log(z) * n["std_error"]))
 
 
 def left_out(soilbin):
     print("\nmeasured | predicted ± told [kPa] (off, in told errors) at 5, 10, 20, 40 and 79 mm")
     density = {"3-medium": 1390, "4-high": 1511, "5-densest": 1538}
-    known = {name: state(soilbin, cullinan(name)) for name in density}
     for name, rho in density.items():
-        (one, a), (other, c) = [(other, known[other]) for other in density if other != name]
-        r = math.log(rho / density[one]) / math.log(density[other] / density[one])
-        made = {"b": a["b"], "n_bend": math.hypot(a["n_bend"], c["n_bend"]) / math.sqrt(2)}
-        for key in ("n", "P"):
-            made[key] = math.exp((1 - r) * math.log(a[key]) + r * math.log(c[key]))
-        made["n_sd"] = made["n"] * math.hypot((1 - r) * a["n_sd"] / a["n"], r * c["n_sd"] / c["n"])
-        made["P_sd"] = math.hypot((1 - r) * a["P_sd"], r * c["P_sd"])
-        held(f"{name} from the other two densities", made, cullinan(name))
+        sinks = by_beds(soilbin, {density[other]: cullinan(other) for other in density if other != name}, rho)
+        if sinks is None:
+            print(f"| {name} from the other two densities | out of reach |")
+        else:
+            held(f"{name} from the other two densities", sinks, cullinan(name))
     for name in ("1-loosest", "2-little"):
         tests = cullinan(name)
         for key in tests:
             rest = state(soilbin, {other: tests[other] for other in tests if other != key})
-            held(f"{name}, test {key[0]} from its bed's others", rest, {key: tests[key]})
+            held(f"{name}, test {key[0]} from its bed's others", by_state(rest), {key: tests[key]})
 
 
 if __name__ == "__main__":

@@ -118,6 +118,7 @@ Soil with_bevameter(Soil soil, const BevameterFit& fit, double density, const st
   check_numbers(out);
   if (fit.cohesion_as_fitted < 0) out.sources["cohesion"] += "; fitted below 0, taken as 0";
   soil.semi_empirical = out;
+  soil.beds.clear(), soil.bed_density.reset();
   return soil;
 }
 

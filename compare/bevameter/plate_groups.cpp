@@ -9,8 +9,10 @@
 #include "compare/bevameter/plate_tests.hpp"
 #include "compare/bevameter/test_rows.hpp"
 #include "compare/report/number_text.hpp"
+#include "scenario/beds.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -39,10 +41,8 @@ std::optional<DensityTrend> trend_of(const std::vector<PlateGroup>& groups) {
     exponents.push_back(n), pressures.push_back(k * std::pow(trend.radius, n));
     errors_of_n.push_back(std::hypot(fit.exponent.between_tests, fit.exponent.between_readings) / n);
     errors_of_p.push_back(std::hypot(fit.k_phi.between_tests, fit.k_phi.between_readings) / k);
-    trend.bend += std::pow(fit.exponent.between_pressures, 2);
   }
   if (trend.densities < fewest_densities) return std::nullopt;
-  trend.bend = std::sqrt(trend.bend / static_cast<double>(densities.size()));
   trend.lowest = std::ranges::min(densities), trend.highest = std::ranges::max(densities);
   for (const double density : densities) trend.density += std::log(density) / static_cast<double>(densities.size());
   trend.density = std::exp(trend.density);
@@ -51,12 +51,28 @@ std::optional<DensityTrend> trend_of(const std::vector<PlateGroup>& groups) {
   return trend;
 }
 
-}  // namespace
-
-Estimate PowerOfDensity::at(double r) const {
-  const double value = reference * std::pow(r, power.value);
-  return {value, value * std::hypot(share, std::log(r) * power.std_error)};
+std::vector<SemiEmpiricalSoil> beds_of(const std::vector<PlateGroup>& groups) {
+  std::vector<SemiEmpiricalSoil> beds;
+  const PlateGroup* first = nullptr;
+  for (const PlateGroup& group : groups) {
+    if (!group.density) continue;
+    if (!first) first = &group;
+    const MeasuredPlatesFit& fit = group.fit;
+    if (fit.radii != first->fit.radii || !(fit.k_phi.estimate.value > 0.0)) return {};
+    if (!soil_parameter("exponent").range.holds(fit.exponent.estimate.value)) return {};
+    SemiEmpiricalSoil& bed = beds.emplace_back();
+    bed.exponent = fit.exponent.estimate, bed.k_phi = fit.k_phi.estimate, bed.density = group.density;
+    if (!fit.one_size()) bed.k_c = fit.k_c.estimate;
+  }
+  std::ranges::sort(beds, {}, [](const SemiEmpiricalSoil& bed) { return *bed.density; });
+  const auto same = [](const SemiEmpiricalSoil& one, const SemiEmpiricalSoil& other) {
+    return one.density == other.density;
+  };
+  if (beds.size() < 2 || std::ranges::adjacent_find(beds, same) != beds.end()) return {};
+  return beds;
 }
+
+}  // namespace
 
 PowerOfDensity fit_power_of_density(const std::vector<double>& densities, const std::vector<double>& values,
                                     const std::vector<double>& errors) {
@@ -82,17 +98,8 @@ PowerOfDensity fit_power_of_density(const std::vector<double>& densities, const 
       .reference = std::exp(mean), .share = std::sqrt(variance / count), .power = {power, std::sqrt(variance / xx)}};
 }
 
-PlatesAtDensity at_density(const DensityTrend& trend, double density) {
-  const double r = density / trend.density;
-  const Estimate n = trend.exponent.at(r), pressure = trend.pressure.at(r);
-  const double per_pressure = std::pow(trend.radius, -n.value);
-  return {.density = density,
-          .exponent = {n.value, std::hypot(n.std_error, trend.bend)},
-          .modulus = {pressure.value * per_pressure, pressure.std_error * per_pressure}};
-}
-
 PlateGroups fit_groups(const SourceText& csv, const GroupedPlates& asked) {
-  PlateGroups groups{.by = asked.by, .all = {}, .asked = asked.density};
+  PlateGroups groups{.by = asked.by, .all = {}};
   const CsvTable table = parse_csv(csv, most_plate_rows);
   for (const std::string& value : values_of_column(table, csv, "--by", asked.by)) {
     std::vector<std::pair<std::string, std::string>> only = asked.only;
@@ -108,12 +115,13 @@ PlateGroups fit_groups(const SourceText& csv, const GroupedPlates& asked) {
     groups.all.push_back(std::move(group));
   }
   groups.trend = trend_of(groups.all);
+  groups.beds = beds_of(groups.all);
   if (!asked.density) return groups;
-  if (!groups.trend)
+  if (groups.beds.empty())
     throw InputError(
-        "--density: these tests give no trend over the density\n  hint: it needs a column dry_density_kg/m^3, three "
-        "densities or more, --by that column or the preparation, and one size of plate");
-  groups.at = at_density(*groups.trend, *asked.density);
+        "--density: these tests are no beds of several densities\n  hint: it needs a column dry_density_kg/m^3, two "
+        "densities or more, each pressed by the same sizes of plates, and --by that column or the preparation");
+  groups.at = bed_at(groups.beds, *asked.density);
   return groups;
 }
 

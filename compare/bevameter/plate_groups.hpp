@@ -1,5 +1,6 @@
-// Plate tests of several beds in one file, fitted apart: by the bed's preparation, its density, a box; and how n and
-// the pressure change with the dry density, where three densities or more were pressed by one size of plate.
+// Plate tests of several beds in one file, fitted apart: by the bed's preparation, its density, a box; as the beds of a
+// soil (scenario/beds.hpp), and how n and the pressure change with the dry density, where three densities or more were
+// pressed by one size of plate.
 //
 //   const PlateGroups groups = fit_groups(csv, {.by = "preparation"});
 //   groups.all.front().value, groups.all.front().fit.exponent.estimate  // "loose", n
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "compare/bevameter/measured_plates.hpp"
+#include "scenario/soil.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::compare {
@@ -32,8 +34,6 @@ struct PlateGroup {
 struct PowerOfDensity {
   double reference = 0.0, share = 0.0;  ///< y_0 and its standard error over it
   Estimate power;
-  /// y at rho = r rho_0, with its standard error.
-  Estimate at(double r) const;
 };
 
 struct DensityTrend {
@@ -42,29 +42,22 @@ struct DensityTrend {
   double radius = 0.0;                 ///< b [m]
   PowerOfDensity exponent, pressure;   ///< n [-], P [Pa]
   std::size_t densities = 0;
-  double bend = 0.0;  ///< root mean square of the groups' between_pressures of n: what n errs by beside the trend
-};
-
-/// What the trend gives a bed of another density: n, and k = P/b^n of this size of plate at this n.
-struct PlatesAtDensity {
-  double density = 0.0;        ///< [kg/m^3]
-  Estimate exponent, modulus;  ///< [-], [N/m^(n+2)]
 };
 
 struct PlateGroups {
   std::string by;                       ///< the column
   std::vector<PlateGroup> all;          ///< in the order of the file
   std::optional<DensityTrend> trend{};  ///< of three densities or more
-  std::optional<double> asked{};        ///< density that was asked for [kg/m^3]
-  std::optional<PlatesAtDensity> at{};  ///< and what is found there
+  /// n, k_c and k_phi of the groups that have a density, loosest first; none where two share one, where their plates
+  /// differ in size, or where no soil has a k_phi or an n. Of one size of plate k_c is 0.
+  std::vector<SemiEmpiricalSoil> beds{};
+  std::optional<SemiEmpiricalSoil> at{};  ///< at the density that was asked for
 };
 
 /// The line of ln y over ln rho, all groups with one weight, errors by what the groups scatter about it where that is
 /// more than their own, with Student's t. `errors`: of ln y. Throws InputError for fewer than three densities.
 PowerOfDensity fit_power_of_density(const std::vector<double>& densities, const std::vector<double>& values,
                                     const std::vector<double>& errors);
-
-PlatesAtDensity at_density(const DensityTrend& trend, double density);
 
 struct GroupedPlates {
   std::string by;  ///< a column of the file
@@ -75,7 +68,7 @@ struct GroupedPlates {
 };
 
 /// Reads the file as read_plates does, a group for each value of the column, and fits each as fit_measured_plates does.
-/// Throws InputError, which names the group, and for a density that is asked of a file without a trend.
+/// Throws InputError, which names the group, and for a density out of reach of the beds, or asked of fewer than two.
 PlateGroups fit_groups(const SourceText& csv, const GroupedPlates& asked);
 
 }  // namespace soilbin::compare

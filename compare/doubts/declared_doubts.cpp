@@ -7,6 +7,7 @@
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/contact_stages.hpp"
 #include "bekker_wong/model.hpp"
+#include "scenario/beds.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
@@ -70,6 +71,9 @@ void add_value_doubts(const SemiEmpiricalSoil& soil, Doubts& all) {
 Doubts doubts(const Soil& soil) {
   Doubts all;
   if (soil.semi_empirical) add_value_doubts(*soil.semi_empirical, all);
+  if (soil.bed_density && !soil.beds.empty())
+    if (const DensityRange range = tested(soil.beds); !range.holds(*soil.bed_density))
+      all.push_back({DoubtKind::beyond_densities_of_plates, {*soil.bed_density, range.lowest, range.highest}});
   std::optional<double> gravity;
   if (soil.semi_empirical || soil.granular)
     gravity = soil.semi_empirical ? soil.semi_empirical->gravity : soil.granular->gravity;

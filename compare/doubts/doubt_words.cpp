@@ -232,8 +232,8 @@ constexpr DoubtSentence sentences[] = {
     D(curve_flattens, "the pressure grows slower at depth than Bekker's form: n is {:.2f} in the lower half of the "
       "pressures and {:.2f} in the upper one. The bed nears the most that it bears: a load beyond sinks deeper than the "
       "fit says; fit over the pressures that your wheel makes (--pressure)"),
-    D(beyond_densities_of_plates, "{:g} kg/m^3 lies beyond the beds that were tested, {:g} to {:g} kg/m^3: a power of "
-      "the density is a guess there"),
+    D(beyond_densities_of_plates, "{:g} kg/m^3 lies beyond the beds that were tested, {:g} to {:g} kg/m^3: the values "
+      "of the nearest one are taken there, with standard errors that grow with the distance"),
     D(one_normal_stress, "one normal stress ({:.3g} kPa) can't separate c and phi: phi is given with c = 0, valid "
       "near this stress"),
     D(shear_falls_again, "the shear stress falls after a peak in {} of {:#test}: Janosi's curve stays at tau_max; at "

@@ -220,7 +220,8 @@ Doubts doubts_of_declarations(const Case& question) {
   const auto is_typed = [&](const char* value) { return soil && is_from_command_line(*soil, value); };
   if ((is_typed("gravity") || is_typed("density")) && asks_wheel && !question.drive && !weighs_soil(question))
     for (const char* value : {"gravity", "density"})
-      if (is_typed(value)) all.push_back({DoubtKind::soil_weight_ignored, {value}});
+      if (is_typed(value) && !(value == std::string_view("density") && !question.scenario.soil.beds.empty()))
+        all.push_back({DoubtKind::soil_weight_ignored, {value}});
   if (soil && !soil->density && !effects.empty() && weighs_soil(question))
     all.push_back({DoubtKind::density_assumed, {presumed_bulk_density}});
   return all;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compare/measured/outliers.hpp"
+#include "scenario/beds.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::compare {
@@ -51,9 +52,9 @@ Doubts doubts(const PlateGroups& groups) {
       if (of_readings || (doubt.kind == DoubtKind::one_plate_size && !tell_of(all, doubt.kind)))
         all.push_back(std::move(doubt));
     }
-  if (groups.trend && groups.asked && (*groups.asked < groups.trend->lowest || *groups.asked > groups.trend->highest))
-    all.push_back(
-        {DoubtKind::beyond_densities_of_plates, {*groups.asked, groups.trend->lowest, groups.trend->highest}});
+  if (groups.at)
+    if (const DensityRange range = tested(groups.beds); !range.holds(*groups.at->density))
+      all.push_back({DoubtKind::beyond_densities_of_plates, {*groups.at->density, range.lowest, range.highest}});
   return all;
 }
 

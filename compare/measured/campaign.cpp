@@ -222,7 +222,7 @@ constexpr const char* soil_meaning = "what plate and shear tests say: value and 
 /// A named soil gives its cone index too, where the campaign tells none.
 SemiEmpiricalSoil read_values(const YamlNode& soil, const Library& library, const Reading& reading,
                               Campaign& campaign) {
-  if (soil.is_mapping()) return read_mapping<SemiEmpiricalSoil>(soil, reading);
+  if (soil.is_mapping() && !names_a_bed(soil)) return read_mapping<SemiEmpiricalSoil>(soil, reading);
   const Soil named = read_soil_part(soil, library, reading);
   if (!named.semi_empirical)
     reading.refuse(soil, fmt::format("a campaign needs a soil with a 'semi_empirical' section; '{}' has none",

@@ -24,7 +24,7 @@ ordered_json columns_schema() {
 
 ordered_json campaign_schema(const EffectVocabulary& effects) {
   ordered_json campaign = object_schema<Campaign>();
-  ordered_json wheel = named_or(object_schema<Tire>()), soil = named_or(object_schema<SemiEmpiricalSoil>());
+  ordered_json wheel = named_or(object_schema<Tire>()), soil = soil_part_schema(object_schema<SemiEmpiricalSoil>());
   wheel["description"] = "the wheel that was tested";
   soil["description"] = "what plate and shear tests say: value and sd";
   campaign["properties"]["wheel"] = std::move(wheel), campaign["properties"]["soil"] = std::move(soil);

@@ -86,11 +86,11 @@ std::vector<NamedValue> plate_values(const MeasuredPlatesFit& fit) {
 }
 
 /// "  exponent: {value: 1.1, sd: 0.2, source: ...}": the sd to two digits, the value to the sd's place.
-std::string yaml_line(const SoilParameter& p, const Estimate& value, const std::string& source) {
+std::string yaml_line(const SoilParameter& p, const Estimate& value, const std::string& source, int indent = 2) {
   const std::string unit = unit_behind(p.unit);
   const double sd = value.std_error * p.per_si, shown = value.value * p.per_si;
   const int places = sd > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(sd))), 0, 9) : 0;
-  return fmt::format("  {}: {{value: {}{}, sd: {:.{}f}{}, source: {}}}\n", p.name,
+  return fmt::format("{:{}}{}: {{value: {}{}, sd: {:.{}f}{}, source: {}}}\n", "", indent, p.name,
                      sd > 0.0 ? fmt::format("{:.{}f}", shown, places) : write_number(shown), unit, sd, places, unit,
                      yaml_scalar(source));
 }
@@ -375,20 +375,36 @@ Json groups_json(const PlateGroups& groups) {
                                  {"densities", trend->densities},
                                  {"exponent", power_json(trend->exponent)},
                                  {"pressure", power_json(trend->pressure)}};
-  if (const std::optional<PlatesAtDensity>& at = groups.at)
-    document["at_density"] = {{"dry_density", at->density},
+  if (const std::optional<SemiEmpiricalSoil>& at = groups.at)
+    document["at_density"] = {{"dry_density", *at->density},
                               {"exponent", estimate_json(at->exponent)},
-                              {"modulus", estimate_json(at->modulus)}};
+                              {"modulus", estimate_json(at->k_phi)},
+                              {"k_c", estimate_json(at->k_c)}};
   return document;
 }
 
-std::string lines_at_density(const PlatesAtDensity& at, const DensityTrend& trend, const std::string& source) {
-  const std::string from = fmt::format("{} --density {:g}kg/m^3; b = {:g} mm", source, at.density, 1000 * trend.radius);
-  return fmt::format("For a soil file, at {:g} kg/m^3:\n\n", at.density) +
-         yaml_line(soil_parameter("exponent"), at.exponent, from) +
-         yaml_line(soil_parameter("k_c"), {}, from + "; presumed: one size of plate") +
-         yaml_line(soil_parameter("k_phi"), at.modulus, from) +
-         fmt::format("  density: {{value: {:g} kg/m^3, source: \"as asked; dry\"}}\n", at.density);
+/// n, k_c and k_phi of a bed, as a soil file has them.
+std::string lines_of(const SemiEmpiricalSoil& bed, bool one_size, const std::string& source, int indent) {
+  std::string text;
+  for (const SoilParameter& p : bevameter_parameters.first<3>()) {
+    const bool presumed = one_size && std::string_view(p.name) == "k_c";
+    text += yaml_line(p, bed.*p.value, presumed ? source + "; presumed: one size of plate" : source, indent);
+  }
+  return text;
+}
+
+/// The bed that was asked for; else all of them, for a soil's section 'beds'.
+std::string soil_file_lines(const PlateGroups& groups, const std::string& source) {
+  const bool one_size = groups.all.front().fit.one_size();
+  if (const std::optional<SemiEmpiricalSoil>& at = groups.at)
+    return fmt::format("For a soil file, at {:g} kg/m^3:\n\n", *at->density) +
+           lines_of(*at, one_size, fmt::format("{} --density {:g}kg/m^3", source, *at->density), 2) +
+           fmt::format("  density: {{value: {:g} kg/m^3, source: \"as asked; dry\"}}\n", *at->density);
+  std::string text =
+      "For a soil file whose density can be asked for (each bed needs c, phi and K too: soilbin shear):\n\nbeds:\n";
+  for (const SemiEmpiricalSoil& bed : groups.beds)
+    text += fmt::format("  - density: {:g} kg/m^3\n", *bed.density) + lines_of(bed, one_size, source, 4);
+  return text;
 }
 
 /// Readings and Bekker's form of each group.
@@ -417,7 +433,7 @@ Report report_on(const PlateGroups& groups, const std::string& file) {
   report.add(Sentences(words_on_groups(groups)));
   report.sheet = drawn_once([&groups, file] { return groups_sheet(groups, file); });
   report.add("Pressure over sinkage", Figure{report.sheet, "Points: readings; lines: Bekker's form."});
-  if (groups.at) report.add("For a soil file", Code{lines_at_density(*groups.at, *groups.trend, source)});
+  if (!groups.beds.empty()) report.add("For a soil file", Code{soil_file_lines(groups, source)});
   report.data = [&groups] { return groups_json(groups); };
   return report;
 }

@@ -4,6 +4,7 @@
 #include "bekker_wong/effect.hpp"
 #include "compare/report/number_text.hpp"
 #include "notebooks/bindings/fields.hpp"
+#include "scenario/beds.hpp"
 #include "scenario/case.hpp"
 #include "scenario/drive.hpp"
 #include "scenario/errors.hpp"
@@ -233,6 +234,16 @@ void bind_library(py::module_& module) {
   module.def(
       "find_soil", [](const std::string& name) { return find_soil(name, cases_library()); }, py::arg("name"),
       "A soil of the library, or of a YAML file. Raises InputError.");
+  module.def(
+      "at_density",
+      [](Soil soil, double density) {
+        set_density(soil, density);
+        return soil;
+      },
+      py::arg("soil"), py::arg("density"),
+      "The soil with the values of a bed of this dry density [kg/m^3], interpolated between its `beds`. Raises "
+      "InputError "
+      "farther beyond them than they reach, and for a soil without beds.");
   module.def(
       "find_case",
       [](const std::string& name) {

@@ -29,6 +29,35 @@ TEST(Estimate, FlagsAloneAnswerWithUnitsAndErrors) {
   EXPECT_EQ(r.err, "");
 }
 
+// Cullinan sand has beds of 1390, 1511 and 1538 kg/m^3; its file asks about the middle one.
+TEST(Estimate, ADensityPicksTheBedOfASoilThatHasSeveral) {
+  const std::string sand = "estimate --soil cullinan-sand --radius 600mm --width 350mm --load 20kN --slip 20% --json ";
+  const auto sinkage = [&](const std::string& flags) {
+    const Outcome run = soilbin(sand + flags);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.err, testing::Not(HasSubstr("density is ignored")));
+    return run.json().at("rows").at(0).at("sinkage").get<double>();
+  };
+  EXPECT_EQ(sinkage(""), sinkage("--density 1511kg/m^3"));
+  EXPECT_GT(sinkage("--density 1390kg/m^3"), sinkage("--density 1450kg/m^3"));
+  EXPECT_GT(sinkage("--density 1450kg/m^3"), sinkage("--density 1511kg/m^3"));
+  const Outcome beyond = soilbin(sand + "--density 1600kg/m^3");
+  EXPECT_THAT(beyond.err, HasSubstr("1600 kg/m^3 lies beyond the beds that were tested, 1390 to 1538 kg/m^3"));
+  EXPECT_EQ(beyond.json().at("soil"), "cullinan-sand at 1600 kg/m^3");
+  const Outcome far = soilbin(sand + "--density 1900kg/m^3");
+  EXPECT_EQ(far.status, 2);
+  EXPECT_THAT(far.err, HasSubstr("--density: 1900 kg/m^3 is out of reach"));
+}
+
+// A value that is typed beside the density goes before the bed's.
+TEST(Estimate, ValuesBesideADensityStandInTheBed) {
+  const Outcome run = soilbin(
+      "estimate --soil cullinan-sand --radius 600mm --width 350mm --load 20kN --slip 20% --json --density 1450kg/m^3 "
+      "--friction-angle 35deg");
+  EXPECT_EQ(run.json().at("soil"), "cullinan-sand at 1450 kg/m^3, changed");
+  EXPECT_THAT(run.json().at("case").get<std::string>(), HasSubstr("friction_angle: {value: 35 deg"));
+}
+
 // Readers expect 0 there; a wheel at v = r w still makes a rut.
 TEST(Estimate, SaysWhyThePullWithoutSlipIsNotZero) {
   constexpr const char* why = "At 0 % slip (v = r ω) the soil is still compacted";

@@ -31,6 +31,17 @@ TEST(VehicleCommand, SaysWhyAndWhereItDoesNotTravel) {
   EXPECT_GT(answer.at("steepest").at("up").at("slope").at("value").get<double>(), 0.3);
 }
 
+TEST(VehicleCommand, TakesTheDensityOfASoilWithBeds) {
+  const auto sinkage = [](const std::string& density) {
+    const auto answer = soilbin("vehicle " + rover + " --soil cullinan-sand --density " + density + " --json").json();
+    return answer.at("steady").at("wheels").at(0).at("sinkage").at("value").get<double>();
+  };
+  EXPECT_GT(sinkage("1390kg/m^3"), sinkage("1450kg/m^3"));
+  const Outcome refused = soilbin("vehicle " + rover + " --density 1450kg/m^3");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("has values at one density alone"));
+}
+
 TEST(VehicleCommand, GivesEveryWheelsNumbersInJson) {
   const auto answer = soilbin("vehicle " + rover + " --soil dry-sand --pull 20N --json").json();
   const auto& steady = answer.at("steady");

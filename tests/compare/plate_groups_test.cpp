@@ -36,9 +36,6 @@ TEST(PowersOfDensity, GiveBackWhatMadeThem) {
   EXPECT_NEAR(power.power.value, 5, 1e-10);
   EXPECT_NEAR(power.share, 0.06 / std::sqrt(3.0), 1e-12);
   EXPECT_NEAR(power.power.std_error, 0.06 / (std::log(1.1) * std::sqrt(2.0)), 1e-10);
-  const Estimate at = power.at(1.1);
-  EXPECT_NEAR(at.value, 3 * std::pow(1.1, 5), 1e-10);
-  EXPECT_NEAR(at.std_error / at.value, 0.06 * std::sqrt(1.0 / 3 + 0.5), 1e-10);
 }
 
 // The middle bed is off by 30 % where 1 % were told: of a line through three, ln 1.3 leaves 2/3 of its square for the
@@ -78,16 +75,28 @@ TEST(PlateGroups, EachValueOfAColumnIsFittedApart) {
   EXPECT_THAT(doubts(groups), testing::ElementsAre(test::tells(DoubtKind::one_plate_size, {50}))) << "once, not thrice";
 }
 
-TEST(PlateGroups, ABedBetweenTheDensitiesIsFoundByTheirPowers) {
-  const PlateGroups groups = fit_groups(beds({1400, 1500, 1600}), {.by = "dry_density_kg/m^3", .density = 1450});
+// The answer is what a soil file of these beds gives: n and ln k_phi linear in ln rho between the neighbours.
+TEST(PlateGroups, ABedBetweenTheDensitiesIsInterpolated) {
+  const PlateGroups groups =
+      fit_groups(beds({1600, 1400, 1500}), {.by = "dry_density_kg/m^3", .density = std::sqrt(1400.0 * 1500)});
+  ASSERT_EQ(groups.beds.size(), 3U);
+  EXPECT_EQ(groups.beds.front().density, 1400) << "loosest first, wherever it stands in the file";
   ASSERT_TRUE(groups.at);
-  const double r = 1450.0 / 1500, n = 0.6 * std::pow(r, -4);
-  EXPECT_NEAR(groups.at->exponent.value, n, 1e-4);
-  EXPECT_NEAR(groups.at->modulus.value, 200e3 * std::pow(r, 6) * std::pow(0.05, -n), 1e2);
-  EXPECT_THAT(text_of(report_on(groups, "beds.csv")),
-              AllOf(HasSubstr("n goes as its power -4.0"), HasSubstr("For a soil file, at 1450 kg/m^3"),
-                    HasSubstr("--density 1450kg/m^3; b = 50 mm")));
-  EXPECT_EQ(report_on(groups, "beds.csv").data()["at_density"]["dry_density"], 1450);
+  const SemiEmpiricalSoil &loose = groups.beds[0], &medium = groups.beds[1];
+  EXPECT_NEAR(groups.at->exponent.value, (loose.exponent.value + medium.exponent.value) / 2, 1e-12);
+  EXPECT_NEAR(groups.at->k_phi.value, std::sqrt(loose.k_phi.value * medium.k_phi.value), 1e-3);
+  EXPECT_GT(groups.at->exponent.std_error, loose.exponent.std_error / std::sqrt(2.0)) << "and what beds scatter";
+  EXPECT_EQ(report_on(groups, "beds.csv").data()["at_density"]["modulus"]["value"], groups.at->k_phi.value);
+}
+
+TEST(PlateGroups, AreToldAsTheBedsOfASoil) {
+  const PlateGroups groups = fit_groups(beds({1400, 1500, 1600}), {.by = "bed"});
+  EXPECT_THAT(
+      text_of(report_on(groups, "beds.csv")),
+      AllOf(HasSubstr("n goes as its power -4.0"), HasSubstr("beds:\n  - density: 1400 kg/m^3\n    exponent: {")));
+  const PlateGroups asked = fit_groups(beds({1400, 1500, 1600}), {.by = "bed", .density = 1450});
+  EXPECT_THAT(text_of(report_on(asked, "beds.csv")), AllOf(HasSubstr("For a soil file, at 1450 kg/m^3"),
+                                                           HasSubstr("--density 1450kg/m^3; presumed: one size")));
 }
 
 TEST(PlateGroups, ADensityBeyondTheBedsIsDoubted) {
@@ -96,12 +105,12 @@ TEST(PlateGroups, ADensityBeyondTheBedsIsDoubted) {
               testing::Contains(test::tells(DoubtKind::beyond_densities_of_plates, {1700, 1400, 1600})));
 }
 
-TEST(PlateGroups, TwoDensitiesMakeNoTrend) {
-  EXPECT_FALSE(fit_groups(beds({1400, 1600}), {.by = "bed"}).trend);
-  EXPECT_THAT(refusal([] {
-                fit_groups(beds({1400, 1600}), {.by = "bed", .density = 1500});
-              }),
-              StartsWith("--density: these tests give no trend over the density"));
+TEST(PlateGroups, TwoDensitiesMakeBedsAndNoTrend) {
+  const PlateGroups two = fit_groups(beds({1400, 1600}), {.by = "bed", .density = 1500});
+  EXPECT_FALSE(two.trend);
+  EXPECT_TRUE(two.at);
+  EXPECT_THAT(refusal([] { fit_groups(beds({1400}), {.by = "bed", .density = 1500}); }),
+              StartsWith("--density: these tests are no beds of several densities"));
   EXPECT_THAT(refusal([] {
                 fit_groups(beds({1400, 1600}), {.by = "bad"});
               }),
@@ -138,27 +147,23 @@ void expect_in_file(const Estimate& file, const Estimate& fit, const char* what)
   EXPECT_NEAR(file.std_error, fit.std_error, 0.05 * file.std_error) << what;
 }
 
-// The soils of the library are what the commands in their files give.
-TEST(PlateGroups, TheLibrarysSoilsOfCullinanSandAreTheirFits) {
+// The library's soil is what the commands in its file give.
+TEST(PlateGroups, TheLibrarysCullinanSandIsItsFits) {
   const MeasuredShearFit sheared =
       fit_measured_shear(read_shear(read_source_text(cullinan + "shear.csv", largest_plate_csv)));
   ASSERT_TRUE(sheared.one_stress);
   const PlateGroups groups =
       fit_groups(read_source_text(cullinan + "plates.csv", largest_plate_csv), {.by = "preparation"});
-  int soils = 0;
-  for (const PlateGroup& group : groups.all) {
-    if (!group.density) continue;
-    const SemiEmpiricalSoil soil =
-        *read_soil(fmt::format("{}/cases/soils/cullinan-sand-{:g}.yaml", SOILBIN_SOURCE_DIR, *group.density))
-             .semi_empirical;
-    EXPECT_EQ(soil.density, group.density);
-    expect_in_file(soil.exponent, group.fit.exponent.estimate, "n");
-    expect_in_file(soil.k_phi, group.fit.k_phi.estimate, "k");
-    expect_in_file(soil.friction_angle, sheared.friction_angle, "phi");
-    expect_in_file(soil.shear_modulus, sheared.shear_modulus, "K");
-    ++soils;
+  const std::vector<SemiEmpiricalSoil> known = read_soil(SOILBIN_SOURCE_DIR "/cases/soils/cullinan-sand.yaml").beds;
+  ASSERT_EQ(known.size(), 3U);
+  ASSERT_EQ(groups.beds.size(), 3U);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    EXPECT_EQ(known[i].density, groups.beds[i].density);
+    expect_in_file(known[i].exponent, groups.beds[i].exponent, "n");
+    expect_in_file(known[i].k_phi, groups.beds[i].k_phi, "k");
+    expect_in_file(known[i].friction_angle, sheared.friction_angle, "phi");
+    expect_in_file(known[i].shear_modulus, sheared.shear_modulus, "K");
   }
-  EXPECT_EQ(soils, 3);
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ from soilbin._soilbin import (
     TractionResult,
     Waypoint,
     __version__,
+    at_density,
     cases_folders,
     doubts,
     effect_catalogue,
@@ -69,7 +70,8 @@ __all__ = [
     "Bin", "Case", "ConeIndex", "ContactPair", "Controller", "Drive", "EffectChoice", "EffectForm", "Estimate", "ForceFrame",
     "GranularSoil", "InputError", "LugPattern", "Lugs", "Model", "ModelKind", "NoSolution", "OperatingCondition",
     "ResistiveForce", "ResistiveForceSoil", "RollingResistance", "RunStopped", "Scenario", "SemiEmpiricalSoil", "Shelf", "SlipBy", "Soil", "SoilbinWarning",
-    "Tire", "TractionResult", "Waypoint", "__version__", "bekker_wong", "cases_folders", "compare", "conditions", "dem",
+    "Tire", "TractionResult", "Waypoint", "__version__", "at_density",
+    "bekker_wong", "cases_folders", "compare", "conditions", "dem",
     "doubts", "effect_catalogue", "estimate", "find_case", "find_soil", "find_tire", "in_words", "names", "parse_case",
     "run_study", "sweep", "write_soil", "write_tire",
 ]
