@@ -1,6 +1,7 @@
 // soilbin element-test: what a soil's grains do in the laboratory's tests.
 #include <fmt/core.h>
 
+#include <functional>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -25,7 +26,7 @@ struct ElementTestOptions {
   std::string test, soil;
   OutputFlags outputs;
   std::vector<std::string> stresses;
-  int packings = 1;
+  int packings = 0;  ///< 0: as many as the test usually has
   double inertial = 0;
   bool ledger = false;
   ElementTestFlags flags;
@@ -39,6 +40,7 @@ struct AskedTest {
   dem::SpecimenSettings specimen;
   dem::WorkOptions how;
   dem::BedStore& beds;
+  int packings;
 };
 
 /// The stresses given, else those of the test.
@@ -53,7 +55,7 @@ std::vector<double> stresses_of(const ElementTestOptions& options, std::vector<d
 template <class Settings>
 Settings strength_settings(const AskedTest& asked, std::initializer_list<double Settings::*> sides) {
   Settings s;
-  s.specimen = asked.specimen, s.packings = asked.options.packings, s.ledger = asked.options.ledger;
+  s.specimen = asked.specimen, s.packings = asked.packings, s.ledger = asked.options.ledger;
   s.stresses = stresses_of(asked.options, s.stresses);
   for (double Settings::*side : sides) s.*side *= asked.options.flags.size;
   if (asked.options.inertial > 0) s.inertial = asked.options.inertial;
@@ -72,33 +74,55 @@ compare::Report triaxial(const AskedTest& asked) {
   return compare::report_on(dem::triaxial(asked.grains, settings, asked.how, &asked.beds), asked.soil);
 }
 
+/// What a test gives of each packing, of the seeds from the first one on, one behind the other.
+template <class Result>
+std::vector<Result> each_packing(const AskedTest& asked,
+                                 const std::function<std::vector<Result>(const dem::SpecimenSettings&)>& run) {
+  std::vector<Result> all;
+  dem::SpecimenSettings specimen = asked.specimen;
+  for (int k = 0; k < asked.packings; ++k, ++specimen.packing)
+    for (Result& result : run(specimen)) all.push_back(std::move(result));
+  return all;
+}
+
 compare::Report tilting_board(const AskedTest& asked) {
   dem::TiltingBoardSettings s;
-  s.packing = asked.specimen.packing, s.laws = asked.specimen.laws;
+  s.laws = asked.specimen.laws;
   s.across = static_cast<int>(std::lround(s.across * asked.options.flags.size));
-  return compare::report_on(dem::tilting_board(asked.grains, s, asked.how), asked.soil);
+  const auto run = [&](const dem::SpecimenSettings& specimen) {
+    s.packing = specimen.packing;
+    return std::vector{dem::tilting_board(asked.grains, s, asked.how)};
+  };
+  return compare::report_on(each_packing<dem::TiltingBoardResult>(asked, run), asked.soil);
 }
 
 compare::Report repose(const AskedTest& asked) {
   dem::AngleOfReposeSettings s;
   s.packing = asked.specimen.packing, s.laws = asked.specimen.laws;
   s.radius *= asked.options.flags.size, s.height *= asked.options.flags.size;
-  return compare::report_on(dem::angle_of_repose(asked.grains, s, asked.how), asked.soil);
+  if (asked.options.flags.size == 1) s.lowest = dem::lowest_heap;
+  return compare::report_on(dem::heaps_of_repose(asked.grains, s, asked.packings, asked.how), asked.soil);
 }
 
 compare::Report plate(const AskedTest& asked) {
   dem::PlateSettings s = asked.options.plates.plates(asked.grains);
-  s.bed.specimen = asked.specimen;
   s.bed.width *= asked.options.flags.size, s.bed.depth *= asked.options.flags.size;
-  return compare::report_on(dem::plate_sinkage(asked.grains, s, asked.how, &asked.beds), asked.soil);
+  const auto run = [&](const dem::SpecimenSettings& specimen) {
+    s.bed.specimen = specimen;
+    return dem::plate_sinkage(asked.grains, s, asked.how, &asked.beds);
+  };
+  return compare::report_on(each_packing<dem::PlateRun>(asked, run), asked.soil);
 }
 
 compare::Report shear(const AskedTest& asked) {
   dem::AnnulusSettings s;
-  s.bed.specimen = asked.specimen;
   s.stresses = stresses_of(asked.options, s.stresses);
   s.bed.width *= asked.options.flags.size, s.bed.depth *= asked.options.flags.size;
-  return compare::report_on(dem::annular_shear(asked.grains, s, asked.how, &asked.beds), asked.soil);
+  const auto run = [&](const dem::SpecimenSettings& specimen) {
+    s.bed.specimen = specimen;
+    return dem::annular_shear(asked.grains, s, asked.how, &asked.beds);
+  };
+  return compare::report_on(each_packing<dem::AnnulusRun>(asked, run), asked.soil);
 }
 
 struct Test {
@@ -106,10 +130,11 @@ struct Test {
   compare::Report (*run)(const AskedTest&);
   bool takes_specimens = false, takes_stresses = takes_specimens, takes_plates = false;
   bool takes_settling = takes_stresses || takes_plates;
+  int packings = 1;  ///< where none are asked for: of quick tests enough to tell what they scatter
 };
 constexpr Test tests[] = {{.name = "direct-shear", .run = direct_shear, .takes_specimens = true},
-                          {.name = "tilting-board", .run = tilting_board},
-                          {.name = "repose", .run = repose},
+                          {.name = "tilting-board", .run = tilting_board, .packings = 3},
+                          {.name = "repose", .run = repose, .packings = 3},
                           {.name = "triaxial", .run = triaxial, .takes_specimens = true},
                           {.name = "plate", .run = plate, .takes_plates = true},
                           {.name = "shear", .run = shear, .takes_stresses = true}};
@@ -135,7 +160,6 @@ void check_flags(const ElementTestOptions& options, const Test& asked) {
                                  names.size() > 1 ? "do" : "does"));
   };
   only("--stress", !options.stresses.empty(), &Test::takes_stresses);
-  only("--packings", options.packings != 1, &Test::takes_specimens);
   only("--inertial", options.inertial != 0, &Test::takes_specimens);
   only("--ledger", options.ledger, &Test::takes_specimens);
   only("--settling-friction", !options.flags.settling_friction.empty(), &Test::takes_settling);
@@ -145,13 +169,13 @@ void check_flags(const ElementTestOptions& options, const Test& asked) {
 
 int element_test(const ElementTestOptions& options, const Session& session) {
   const Test& test = test_of(options.test);
-  if (options.packings < 1) throw InputError("--packings: 1 or more");
   if (options.inertial < 0) throw InputError("--inertial: above 0");
   check_flags(options, test);
   const Soil soil = find_soil(options.soil, session.place.library);
   dem::BedStore beds(folder_of_beds());
-  const compare::Report report = test.run(
-      {options, soil.name, grains_of(soil), options.flags.specimen(grains_of(soil)), options.flags.work(), beds});
+  const compare::Report report =
+      test.run({options, soil.name, grains_of(soil), options.flags.specimen(grains_of(soil)), options.flags.work(),
+                beds, options.packings > 0 ? options.packings : test.packings});
   clear_progress_line();
   return publish(report, options.outputs, options.flags.doubts(grains_of(soil)), session).status(done);
 }
@@ -167,7 +191,8 @@ void add_element_test(CLI::App& app, Session& session) {
   add_value(*command, "soil", options->soil, "SOIL", "a soil of the library, or a YAML file")->required();
   add_value(*command, "--stress", options->stresses, "STRESS", "normal or confining stress; may be given again")
       ->allow_extra_args(false);
-  add_value(*command, "--packings", options->packings, "N", "direct-shear, triaxial: number of specimens, 1")
+  add_value(*command, "--packings", options->packings, "N",
+            "number of specimens, of the seeds from --packing on; 1, of tilting-board and repose 3")
       ->check(whole_number(1, compare::most_packings));
   add_value(*command, "--inertial", options->inertial, "I",
             "direct-shear, triaxial: inertial number of the rate, 0.001");

@@ -2,6 +2,7 @@
 // the name of the soil whose grains were tested.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -11,6 +12,7 @@
 #include "dem/element_tests/angle_of_repose.hpp"
 #include "dem/element_tests/bevameter_tests.hpp"
 #include "dem/element_tests/direct_shear.hpp"
+#include "dem/element_tests/over_packings.hpp"
 #include "dem/element_tests/tilting_board.hpp"
 #include "dem/element_tests/triaxial.hpp"
 #include "scenario/unit.hpp"
@@ -193,58 +195,160 @@ Report report_on(const dem::TriaxialResult& result, const std::string& soil) {
                    {"Triaxial compression", {std::move(stress), std::move(volume)}});
 }
 
-Report report_on(const dem::TiltingBoardResult& result, const std::string& soil) {
-  using Sample = dem::TiltSample;
-  const auto slide = column(result.curve, &Sample::slide);
-  Plot plot = panel("Mean slide [mm]", "tilt [deg]");
-  add_line(plot, "", column(result.curve, [](const Sample& s) { return s.angle / degree; }),
-           column(result.curve, times(&Sample::slide, 1e3)));
-  return report_of(
-      "tilting-board", soil, {},
-      {result.slid ? fmt::format("{} grains begin to slide at {} deg; slid by a grain at {} deg", result.grains,
-                                 number(result.onset / degree), number(result.gone / degree))
-                   : fmt::format("{} grains held up to {} deg", result.grains, number(result.onset / degree))},
-      {{"mean_diameter", result.mean_diameter},
-       {"grains", result.grains},
-       {"slid", result.slid},
-       {"onset", result.onset},
-       {"gone", result.gone},
-       {"angle", column(result.curve, &Sample::angle)},
-       {"slide", slide}},
-      {"Tilting board", {std::move(plot)}});
+namespace {
+
+/// "", or behind a value what it is a mean of.
+std::string of_packings(std::size_t count) { return count > 1 ? fmt::format(" (mean of {} packings)", count) : ""; }
+
+/// A curve's name, with its packing where there are several.
+std::string label_of(std::string name, std::uint64_t packing, bool several) {
+  return several ? fmt::format("{}{}packing {}", name, name.empty() ? "" : ", ", packing) : name;
 }
 
-Report report_on(const dem::AngleOfReposeResult& result, const std::string& soil) {
+/// Means over packings of what each run gives of itself, by what was set.
+struct MeanOverPackings {
+  double set = 0.0;
+  std::vector<Estimate> each{};
+};
+
+template <class Run>
+std::vector<MeanOverPackings> means_of(const std::vector<Run>& runs, double Run::*set, double (*value)(const Run&)) {
+  std::vector<MeanOverPackings> means;
+  for (const Run& run : runs) {
+    const auto same = [&](const MeanOverPackings& mean) { return mean.set == run.*set; };
+    if (std::ranges::none_of(means, same)) means.push_back({run.*set});
+    std::ranges::find_if(means, same)->each.push_back({value(run), 0.0});
+  }
+  return means;
+}
+
+/// A sentence and, into `json`, an entry a mean; no sentence of a single packing.
+std::vector<std::string> told_means(const std::vector<MeanOverPackings>& means, const char* what, const char* unit,
+                                    double per_si, const char* key, const char* value_key, Json& json) {
+  std::vector<std::string> sentences;
+  json = Json::array();
+  for (const MeanOverPackings& mean : means) {
+    const Estimate over = dem::over_packings(mean.each);
+    json.push_back({{key, mean.set}, {value_key, estimate_json(over)}, {"packings", mean.each.size()}});
+    if (mean.each.size() > 1)
+      sentences.push_back(fmt::format("{} {} {}: {} kPa{}", what, number(mean.set * per_si), unit, number(over, 1e-3),
+                                      of_packings(mean.each.size())));
+  }
+  return sentences;
+}
+
+double pressure_at_end(const dem::PlateRun& run) { return run.curve.back().pressure; }
+
+/// Mean over the last fifth of the way.
+double shear_at_end(const dem::AnnulusRun& run) {
+  const std::size_t tail = std::max<std::size_t>(1, run.curve.size() / 5);
+  double mean = 0;
+  for (std::size_t k = run.curve.size() - tail; k < run.curve.size(); ++k)
+    mean += run.curve[k].shear_stress / static_cast<double>(tail);
+  return mean;
+}
+
+}  // namespace
+
+Report report_on(const std::vector<dem::TiltingBoardResult>& boards, const std::string& soil) {
+  using Board = dem::TiltingBoardResult;
+  using Sample = dem::TiltSample;
+  const Board& first = boards.front();
+  Table table{"", {"packing", "grains", "begins to slide at [deg]", "slid by a grain at [deg]"}};
+  Plot plot = panel("Mean slide [mm]", "tilt [deg]");
+  std::vector<Estimate> onsets, gones;
+  std::size_t slid = 0;
+  Json runs = Json::array();
+  for (const Board& board : boards) {
+    slid += board.slid ? 1 : 0;
+    onsets.push_back({board.onset, 0.0}), gones.push_back({board.gone, 0.0});
+    const std::string at = number(board.onset / degree);
+    table.add({std::to_string(board.packing), std::to_string(board.grains), board.slid ? at : "held up to " + at,
+               board.slid ? number(board.gone / degree) : "-"});
+    runs.push_back({{"packing", board.packing}, {"slid", board.slid}, {"onset", board.onset}, {"gone", board.gone}});
+    add_line(plot, label_of("", board.packing, boards.size() > 1),
+             column(board.curve, [](const Sample& s) { return s.angle / degree; }),
+             column(board.curve, times(&Sample::slide, 1e3)));
+  }
+  const Estimate onset = dem::over_packings(onsets), gone = dem::over_packings(gones);
+  std::string told = fmt::format("{} grains begin to slide at {} deg; slid by a grain at {} deg{}", first.grains,
+                                 degrees(onset), degrees(gone), of_packings(boards.size()));
+  if (slid == 0)
+    told = fmt::format("{} grains held up to {} deg{}", first.grains, number(onset.value / degree),
+                       boards.size() > 1 ? fmt::format(" in {} packings", boards.size()) : "");
+  else if (slid < boards.size())
+    told += fmt::format(". {} of them held up to the steepest tilt, so the angles are larger than that",
+                        boards.size() - slid);
+  return report_of("tilting-board", soil, boards.size() > 1 ? std::move(table) : Table{}, {told},
+                   {{"mean_diameter", first.mean_diameter},
+                    {"grains", first.grains},
+                    {"slid", slid == boards.size()},
+                    {"onset", onset.value},
+                    {"gone", gone.value},
+                    {"onset_error", onset.std_error},
+                    {"gone_error", gone.std_error},
+                    {"angle", column(first.curve, &Sample::angle)},
+                    {"slide", column(first.curve, &Sample::slide)},
+                    {"runs", std::move(runs)}},
+                   {"Tilting board", {std::move(plot)}});
+}
+
+Report report_on(const std::vector<dem::AngleOfReposeResult>& heaps, const std::string& soil) {
+  using Heap = dem::AngleOfReposeResult;
   using Ring = dem::HeapProfile;
+  const Heap& first = heaps.front();
+  const auto in_grains = [](const Heap& heap) { return heap.height / heap.mean_diameter; };
+  Table table{"", {"packing", "grains", "angle [deg]", "height [grains]", "radius [mm]", "at rest after [s]"}};
   Plot plot = panel("Height [mm]", "distance from the axis [mm]");
-  add_line(plot, "", column(result.profile, times(&Ring::radius, 1e3)),
-           column(result.profile, times(&Ring::height, 1e3)));
-  return report_of(
-      "repose", soil, {},
-      {fmt::format("angle of repose {} deg: {} grains, heap {} mm high, {} mm in radius, at rest after {} s",
-                   degrees(result.angle), result.grains, number(result.height * 1e3), number(result.base * 1e3),
-                   number(result.settling_time))},
-      {{"mean_diameter", result.mean_diameter},
-       {"angle", estimate_json(result.angle)},
-       {"by_sector", result.by_sector},
-       {"grains", result.grains},
-       {"height", result.height},
-       {"base", result.base},
-       {"lift_speed", result.lift_speed},
-       {"radius", column(result.profile, &Ring::radius)},
-       {"profile", column(result.profile, &Ring::height)}},
-      {"Angle of repose", {std::move(plot)}});
+  std::vector<Estimate> angles, heights, bases;
+  Json runs = Json::array();
+  for (const Heap& heap : heaps) {
+    angles.push_back(heap.angle), heights.push_back({in_grains(heap), 0.0}), bases.push_back({heap.base, 0.0});
+    table.add({std::to_string(heap.packing), std::to_string(heap.grains), degrees(heap.angle), number(in_grains(heap)),
+               number(heap.base * 1e3), number(heap.settling_time)});
+    runs.push_back({{"packing", heap.packing},
+                    {"angle", estimate_json(heap.angle)},
+                    {"grains", heap.grains},
+                    {"height", heap.height},
+                    {"base", heap.base}});
+    add_line(plot, label_of("", heap.packing, heaps.size() > 1), column(heap.profile, times(&Ring::radius, 1e3)),
+             column(heap.profile, times(&Ring::height, 1e3)));
+  }
+  const Estimate angle = dem::over_packings(angles), height = dem::over_packings(heights);
+  std::vector<std::string> sentences{fmt::format(
+      "angle of repose {} deg{}: {} grains, heap {} grains high, {} mm in radius", degrees(angle),
+      of_packings(heaps.size()), first.grains, number(height.value, 3), number(dem::over_packings(bases).value * 1e3))};
+  if (heaps.size() == 1)
+    sentences.emplace_back("The ± is by the sectors of one heap: packings differ by more (--packings 3).");
+  if (height.value < dem::lowest_heap)
+    sentences.push_back(fmt::format(
+        "The heap is lower than {:g} grains: its slope comes out too small (--size, as a multiple of the default).",
+        dem::lowest_heap));
+  return report_of("repose", soil, heaps.size() > 1 ? std::move(table) : Table{}, std::move(sentences),
+                   {{"mean_diameter", first.mean_diameter},
+                    {"angle", estimate_json(angle)},
+                    {"by_sector", first.by_sector},
+                    {"grains", first.grains},
+                    {"height", first.height},
+                    {"base", first.base},
+                    {"lift_speed", first.lift_speed},
+                    {"radius", column(first.profile, &Ring::radius)},
+                    {"profile", column(first.profile, &Ring::height)},
+                    {"height_in_grains", height.value},
+                    {"runs", std::move(runs)}},
+                   {"Angle of repose", {std::move(plot)}});
 }
 
 Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil) {
   using Sample = dem::PlateSample;
-  Table table{"", {"plate [mm]", "grains", "void ratio", "sinkage [mm]", "pressure there [kPa]"}};
-  Json all = Json::array();
+  const bool several = runs.front().packing != runs.back().packing;
+  Table table{"", {"plate [mm]", "packing", "grains", "void ratio", "sinkage [mm]", "pressure there [kPa]"}};
+  Json all = Json::array(), means;
   Plot plot = panel("Pressure [kPa]", "sinkage [mm]");
   for (const dem::PlateRun& run : runs) {
     const Sample& last = run.curve.back();
-    table.add({number(run.diameter * 1e3), std::to_string(run.grains), number(run.void_ratio),
-               number(last.sinkage * 1e3), number(last.pressure / 1e3)});
+    table.add({number(run.diameter * 1e3), std::to_string(run.packing), std::to_string(run.grains),
+               number(run.void_ratio), number(last.sinkage * 1e3), number(last.pressure / 1e3)});
     all.push_back({{"diameter", run.diameter},
                    {"packing", run.packing},
                    {"void_ratio", run.void_ratio},
@@ -252,24 +356,24 @@ Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil
                    {"speed", run.speed},
                    {"sinkage", column(run.curve, &Sample::sinkage)},
                    {"pressure", column(run.curve, &Sample::pressure)}});
-    add_line(plot, fmt::format("{} mm", number(run.diameter * 1e3)), column(run.curve, times(&Sample::sinkage, 1e3)),
+    add_line(plot, label_of(fmt::format("{} mm", number(run.diameter * 1e3)), run.packing, several),
+             column(run.curve, times(&Sample::sinkage, 1e3)),
              column(run.curve, [](const Sample& s) { return s.pressure / 1e3; }));
   }
-  return report_of("plate", soil, std::move(table), {}, {{"runs", std::move(all)}},
-                   {"Plate sinkage", {std::move(plot)}});
+  std::vector<std::string> sentences = told_means(means_of(runs, &dem::PlateRun::diameter, pressure_at_end),
+                                                  "At the deepest, plate of", "mm", 1e3, "diameter", "pressure", means);
+  return report_of("plate", soil, std::move(table), std::move(sentences),
+                   {{"runs", std::move(all)}, {"at_end", std::move(means)}}, {"Plate sinkage", {std::move(plot)}});
 }
 
 Report report_on(const std::vector<dem::AnnulusRun>& runs, const std::string& soil) {
   using Sample = dem::AnnulusSample;
+  const bool several = runs.front().packing != runs.back().packing;
   Table table{"", {"stress [kPa]", "packing", "shear stress at the end [kPa]", "sinkage [mm]"}};
-  Json all = Json::array();
+  Json all = Json::array(), means;
   Plot plot = panel("Shear stress [kPa]", "displacement [mm]");
   for (const dem::AnnulusRun& run : runs) {
-    const std::size_t tail = std::max<std::size_t>(1, run.curve.size() / 5);
-    double mean = 0;
-    for (std::size_t k = run.curve.size() - tail; k < run.curve.size(); ++k)
-      mean += run.curve[k].shear_stress / static_cast<double>(tail);
-    table.add({number(run.stress / 1e3), std::to_string(run.packing), number(mean / 1e3),
+    table.add({number(run.stress / 1e3), std::to_string(run.packing), number(shear_at_end(run) / 1e3),
                number(run.curve.back().sinkage * 1e3)});
     all.push_back({{"stress", run.stress},
                    {"packing", run.packing},
@@ -278,12 +382,15 @@ Report report_on(const std::vector<dem::AnnulusRun>& runs, const std::string& so
                    {"shear_stress", column(run.curve, &Sample::shear_stress)},
                    {"normal_stress", column(run.curve, &Sample::normal_stress)},
                    {"sinkage", column(run.curve, &Sample::sinkage)}});
-    add_line(plot, fmt::format("{} kPa", number(run.stress / 1e3)),
+    add_line(plot, label_of(fmt::format("{} kPa", number(run.stress / 1e3)), run.packing, several),
              column(run.curve, times(&Sample::displacement, 1e3)),
              column(run.curve, [](const Sample& s) { return s.shear_stress / 1e3; }));
   }
-  return report_of("shear", soil, std::move(table), {}, {{"runs", std::move(all)}},
-                   {"Ring with grousers", {std::move(plot)}});
+  std::vector<std::string> sentences =
+      told_means(means_of(runs, &dem::AnnulusRun::stress, shear_at_end), "Shear stress at the end, under", "kPa", 1e-3,
+                 "stress", "shear_stress", means);
+  return report_of("shear", soil, std::move(table), std::move(sentences),
+                   {{"runs", std::move(all)}, {"at_end", std::move(means)}}, {"Ring with grousers", {std::move(plot)}});
 }
 
 }  // namespace soilbin::compare

@@ -100,11 +100,11 @@ Report report_on(const MeasuredShearFit& fit, std::span<const MeasuredShear> tes
 Report report_on(const BevameterFit& fit, const BevameterReadings& readings, const Soil& soil, int packings);
 
 /// Element tests: their runs, what they give, curves; soilbin-element-test/1. `soil`: the name of the soil whose grains
-/// were tested.
+/// were tested. A list: a run a packing, or packing by packing; one at least.
 Report report_on(const dem::DirectShearResult& result, const std::string& soil);
 Report report_on(const dem::TriaxialResult& result, const std::string& soil);
-Report report_on(const dem::TiltingBoardResult& result, const std::string& soil);
-Report report_on(const dem::AngleOfReposeResult& result, const std::string& soil);
+Report report_on(const std::vector<dem::TiltingBoardResult>& boards, const std::string& soil);
+Report report_on(const std::vector<dem::AngleOfReposeResult>& heaps, const std::string& soil);
 Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil);
 Report report_on(const std::vector<dem::AnnulusRun>& runs, const std::string& soil);
 

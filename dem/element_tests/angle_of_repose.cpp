@@ -178,7 +178,7 @@ void Heap::measure(AngleOfReposeResult& result) const {
 AngleOfReposeResult Heap::run() {
   AngleOfReposeResult result;
   const double dt = simulation_.setup().numerics.dt;
-  result.mean_diameter = d_;
+  result.mean_diameter = d_, result.packing = settings_.packing;
   result.lift_speed = settings_.lift * std::sqrt(gravity_ * d_);
   const double way = (settings_.height + 4) * d_;
   work_.expect((way / result.lift_speed + 3) / dt);
@@ -206,6 +206,28 @@ AngleOfReposeResult angle_of_repose(const GranularSoil& soil, const AngleOfRepos
                                     const WorkOptions& how) {
   check(settings);
   return Heap(soil, settings, how).run();
+}
+
+std::vector<AngleOfReposeResult> heaps_of_repose(const GranularSoil& soil, AngleOfReposeSettings settings, int packings,
+                                                 const WorkOptions& how) {
+  const Requirements require("angle of repose");
+  require(packings >= 1, "at least one packing");
+  require(settings.lowest >= 0, "the lowest heap must not be below 0");
+  std::vector<AngleOfReposeResult> heaps{angle_of_repose(soil, settings, how)};
+  const double wanted = settings.lowest * mean_diameter(soil);
+  while (heaps.front().height < wanted) {
+    // A heap's height goes as the cylinder's size, for grains of one slope.
+    constexpr double spare = 1.05, smallest = 1.1, largest = 2;
+    const double factor = std::clamp(spare * wanted / heaps.front().height, smallest, largest);
+    if (heaps.front().grains * factor * factor * factor > most_heap_grains) break;
+    settings.radius *= factor, settings.height *= factor;
+    heaps.front() = angle_of_repose(soil, settings, how);
+  }
+  for (int k = 1; k < packings; ++k) {
+    ++settings.packing;
+    heaps.push_back(angle_of_repose(soil, settings, how));
+  }
+  return heaps;
 }
 
 }  // namespace soilbin::dem

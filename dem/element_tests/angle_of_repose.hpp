@@ -10,10 +10,15 @@
 
 namespace soilbin::dem {
 
+/// Below so many mean diameters of height a heap's slope comes out too small
+/// (docs/lab/element-tests.md#size-of-a-heap).
+inline constexpr double lowest_heap = 6;
+
 struct AngleOfReposeSettings {
   std::uint64_t packing = 1;      ///< seed
   double radius = 6;              ///< of the cylinder, in mean diameters
   double height = 12;             ///< of the grains in it, about, in mean diameters
+  double lowest = 0;              ///< heap that is wanted, in mean diameters (heaps_of_repose)
   double lift = 0.1;              ///< speed of the cylinder over sqrt(g d)
   double floor_friction = 1;      ///< sliding and rolling friction of floor and cylinder, share of the grains' own
   double from = 0.15, to = 0.85;  ///< part of the heap's height over which the slope is fitted
@@ -35,12 +40,22 @@ struct AngleOfReposeResult {
   double base = 0;                   ///< its radius where the fitted line meets the floor [m]
   double lift_speed = 0;             ///< [m/s]
   int grains = 0;
-  double settling_time = 0;  ///< from the start of the lift until rest [s]
-  double mean_diameter = 0;  ///< [m]
+  double settling_time = 0;   ///< from the start of the lift until rest [s]
+  double mean_diameter = 0;   ///< [m]
+  std::uint64_t packing = 0;  ///< seed
 };
 
 /// Throws InputError, RunStopped where no rest is found, Stopped.
 AngleOfReposeResult angle_of_repose(const GranularSoil& soil, const AngleOfReposeSettings& settings = {},
                                     const WorkOptions& how = {});
+
+/// The most grains that heaps_of_repose takes to reach a height.
+inline constexpr int most_heap_grains = 20000;
+
+/// Heaps of the seeds settings.packing, +1, ... Where the first one is lower than `settings.lowest`, it is poured again
+/// from a cylinder that is larger all round, until it is high enough or would take more than most_heap_grains; the
+/// others get that cylinder. Throws as angle_of_repose.
+std::vector<AngleOfReposeResult> heaps_of_repose(const GranularSoil& soil, AngleOfReposeSettings settings, int packings,
+                                                 const WorkOptions& how = {});
 
 }  // namespace soilbin::dem

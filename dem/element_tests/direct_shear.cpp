@@ -174,12 +174,14 @@ void ShearBox::summarise(DirectShearRun& run) const {
 StrengthLine line_of(const std::vector<DirectShearRun>& runs, Estimate DirectShearRun::*strength,
                      double HeldStress::*held) {
   std::vector<StrengthPoint> points;
+  std::vector<std::uint64_t> packings;
   for (const DirectShearRun& run : runs) {
+    packings.push_back(run.packing);
     const Estimate ratio = run.*strength;
     const double normal = run.normal.*held;
     points.push_back({normal, {normal * ratio.value, normal * ratio.std_error}});
   }
-  return under_two_stresses(runs) ? fit_strength(points) : StrengthLine{};
+  return under_two_stresses(runs) ? fit_over_packings(points, packings, fit_strength) : StrengthLine{};
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <vector>
 
 #include "scenario/errors.hpp"
 
@@ -87,6 +89,27 @@ StrengthLine fit_circles(std::span<const StrengthPoint> points) {
   const double psi = angle_of(line.through_origin);
   out.friction_angle_without_cohesion = {psi, std::sqrt(line.through_origin_variance) / std::cos(psi)};
   return out;
+}
+
+StrengthLine fit_over_packings(std::span<const StrengthPoint> points, std::span<const std::uint64_t> packings,
+                               StrengthLine (*fit)(std::span<const StrengthPoint>)) {
+  StrengthLine all = fit(points);
+  std::map<std::uint64_t, std::vector<StrengthPoint>> by_packing;
+  for (std::size_t i = 0; i < points.size(); ++i) by_packing[packings[i]].push_back(points[i]);
+  std::vector<double> cohesions, angles, angles_without_cohesion;
+  for (const auto& [packing, own] : by_packing) {
+    const StrengthLine line = fit(own);
+    cohesions.push_back(line.cohesion.value), angles.push_back(line.friction_angle.value);
+    angles_without_cohesion.push_back(line.friction_angle_without_cohesion.value);
+  }
+  const auto widen = [](Estimate& told, const std::vector<double>& each) {
+    const double before = told.std_error;
+    told.std_error = std::max(before, mean_of(each).std_error);
+    return told.std_error / before;
+  };
+  all.covariance *= widen(all.cohesion, cohesions) * widen(all.friction_angle, angles);
+  widen(all.friction_angle_without_cohesion, angles_without_cohesion);
+  return all;
 }
 
 }  // namespace soilbin::dem

@@ -1,6 +1,7 @@
 // Cohesion and friction angle from strengths at several stresses.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "scenario/estimate.hpp"
@@ -32,5 +33,11 @@ StrengthLine fit_strength(std::span<const StrengthPoint> points);
 /// Fits Mohr's circles: each point holds s = (sigma_1 + sigma_3)/2 and t = (sigma_1 - sigma_3)/2, and
 /// t = c cos(phi) + s sin(phi).
 StrengthLine fit_circles(std::span<const StrengthPoint> points);
+
+/// The line of all points by one of these fits. Points of one packing err together, since its grains lie as they lie
+/// under each stress, so errors are also those of the packings' own lines (over_packings), where these are larger.
+/// `packings`: of each point.
+StrengthLine fit_over_packings(std::span<const StrengthPoint> points, std::span<const std::uint64_t> packings,
+                               StrengthLine (*fit)(std::span<const StrengthPoint>));
 
 }  // namespace soilbin::dem

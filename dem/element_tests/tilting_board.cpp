@@ -122,7 +122,7 @@ TiltingBoardResult Board::run() {
   settle();
   const Grains& grains = simulation_.state().grains;
   result.grains = static_cast<int>(number_of_grains(simulation_.state()));
-  result.mean_diameter = d_;
+  result.mean_diameter = d_, result.packing = settings_.packing;
   start_.resize(grains.count()), turned_.assign(grains.count(), 0);
   for (std::size_t k = 0; k < grains.count(); ++k) start_[grains.id[k]] = grains.motion[k].position;
 

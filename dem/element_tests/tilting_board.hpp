@@ -40,7 +40,8 @@ struct TiltingBoardResult {
   double gone = 0;    ///< angle at which the mean slide passed `gone` [rad]
   bool slid = false;  ///< false: it held up to the steepest angle, and both angles are that
   int grains = 0;
-  double mean_diameter = 0;  ///< [m]
+  double mean_diameter = 0;   ///< [m]
+  std::uint64_t packing = 0;  ///< seed
 };
 
 /// A single layer's closed forms: with rolling blocked (rolling friction far above sliding friction) it slides at

@@ -219,12 +219,14 @@ TriaxialRun PressedSpecimen::run() {
 /// sine), p the confining stress that was measured.
 StrengthLine line_of(const std::vector<TriaxialRun>& runs, Estimate TriaxialRun::*strength, double HeldStress::*held) {
   std::vector<StrengthPoint> points;
+  std::vector<std::uint64_t> packings;
   for (const TriaxialRun& run : runs) {
+    packings.push_back(run.packing);
     const Estimate sine = run.*strength;
     const double s = run.confining.*held / (1 - sine.value);
     points.push_back({s, {s * sine.value, s * sine.std_error}});
   }
-  return under_two_stresses(runs) ? fit_circles(points) : StrengthLine{};
+  return under_two_stresses(runs) ? fit_over_packings(points, packings, fit_circles) : StrengthLine{};
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 // soilbin element-test, run as a person runs it.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <numbers>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "cli/command.hpp"
 
@@ -32,7 +35,7 @@ TEST(ElementTestCommand, RefusesWhatMakesNoSenseWithAHint) {
       {"element-test plate paper-sand --plate-sinkage 0mm", "--plate-sinkage"},
       {"element-test repose paper-sand --plate 300mm", "the test repose takes no --plate\n  hint: plate does"},
       {"element-test plate paper-sand --stress 10kPa", "hint: direct-shear, triaxial, shear do"},
-      {"element-test shear paper-sand --packings 3", "the test shear takes no --packings"},
+      {"element-test shear paper-sand --packings 0", "--packings"},
   };
   for (const auto& [arguments, says] : wrong) {
     const Outcome outcome = soilbin(arguments);
@@ -45,7 +48,7 @@ TEST(ElementTestCommand, RefusesWhatMakesNoSenseWithAHint) {
 // The directional couple hangs on the step: said of a test that is asked for it, and of a soil's file.
 TEST(ElementTestCommand, WarnsOfALawWhoseAnswersDependOnTheStep) {
   constexpr const char* said = "answers depend on the time step";
-  const std::string test = "element-test tilting-board paper-sand --size 0.5 --threads 1";
+  const std::string test = "element-test tilting-board paper-sand --size 0.5 --packings 1 --threads 1";
   EXPECT_THAT(soilbin(test + " --rolling directional").err, HasSubstr(said));
   EXPECT_THAT(soilbin(test).err, Not(HasSubstr(said)));
   const Scratch scratch;
@@ -62,6 +65,44 @@ granular:
   grain_tire: {restitution: 0.5, sliding_friction: 0.7, rolling_friction: 0.2}
 )";
   EXPECT_THAT(soilbin("check '" + scratch.write("soil.yaml", soil).string() + "'").out, HasSubstr(said));
+}
+
+// The board's angle is the mean of its packings, with their scatter over the root of their number.
+TEST(SlowElementTestCommand, GivesTheMeanOverPackingsWithTheirScatter) {
+  const std::string board = "element-test tilting-board paper-sand --size 0.5 --threads 1 --json";
+  const auto three = soilbin(board + " --packings 3").json();
+  ASSERT_EQ(three.at("runs").size(), 3U);
+  std::vector<double> onsets;
+  for (int packing = 1; packing <= 3; ++packing) {
+    const auto one = soilbin(fmt::format("{} --packings 1 --packing {}", board, packing)).json();
+    onsets.push_back(one.at("onset"));
+    EXPECT_EQ(one.at("onset_error"), 0.0);
+    EXPECT_EQ(three.at("runs").at(static_cast<std::size_t>(packing - 1)).at("onset"), onsets.back());
+  }
+  const double mean = (onsets[0] + onsets[1] + onsets[2]) / 3;
+  double squares = 0;
+  for (const double onset : onsets) squares += (onset - mean) * (onset - mean);
+  EXPECT_NEAR(three.at("onset").get<double>(), mean, 1e-12);
+  EXPECT_NEAR(three.at("onset_error").get<double>(), std::sqrt(squares / 2 / 3), 1e-12);
+  EXPECT_EQ(soilbin(board).json(), three) << "three where none are asked for";
+}
+
+TEST(SlowElementTestCommand, EveryTestTakesPackings) {
+  for (const char* test : {"plate --size 0.8 --plate 200mm --plate-sinkage 40mm", "shear --size 0.8 --stress 10kPa"}) {
+    const auto two = soilbin(fmt::format("element-test {} paper-sand --threads 1 --json --packings 2", test));
+    ASSERT_EQ(two.status, 0) << two.err;
+    const auto first = two.json().at("at_end").at(0);
+    EXPECT_EQ(first.at("packings"), 2);
+    const char* what = first.contains("pressure") ? "pressure" : "shear_stress";
+    EXPECT_GT(first.at(what).at("std_error").get<double>(), 0.0);
+  }
+}
+
+// Paper sand is steep, and still a heap of half the default size is told to be too low to be believed.
+TEST(SlowElementTestCommand, TellsOfAHeapThatIsTooLow) {
+  const Outcome low = soilbin("element-test repose paper-sand --size 0.5 --packings 1 --threads 1");
+  EXPECT_THAT(low.out, HasSubstr("The heap is lower than 6 grains: its slope comes out too small"));
+  EXPECT_THAT(low.out, HasSubstr("packings differ by more (--packings 3)"));
 }
 
 TEST(SlowElementTestCommand, ShowsInDegreesWhatItsJsonHoldsAsARatio) {

@@ -121,5 +121,23 @@ TEST(Rates, InertialNumberAndRateAreInverse) {
   EXPECT_NEAR(inertial_number(1, 10e3, soil), 0.02 * 0.5, 1e-12);
 }
 
+// Two packings, each on a line of its own through the origin: tan phi = 0.5 and 0.6. All six points scatter about one
+// line, but they are two measurements: half of the difference of the two angles.
+TEST(StrengthLine, PackingsErrAsAWhole) {
+  std::vector<StrengthPoint> points;
+  std::vector<std::uint64_t> packings;
+  for (const double normal : {1e4, 2e4, 4e4})
+    for (const std::uint64_t packing : {1, 2}) {
+      points.push_back({normal, {normal * (packing == 1 ? 0.5 : 0.6), 0.001 * normal}});
+      packings.push_back(packing);
+    }
+  const StrengthLine all = fit_strength(points), told = fit_over_packings(points, packings, fit_strength);
+  const double apart = std::atan(0.6) - std::atan(0.5);
+  EXPECT_EQ(told.friction_angle.value, all.friction_angle.value);
+  EXPECT_GT(apart / 2, all.friction_angle_without_cohesion.std_error);
+  EXPECT_NEAR(told.friction_angle_without_cohesion.std_error, apart / 2, 1e-12);
+  EXPECT_GE(told.friction_angle.std_error, all.friction_angle.std_error);
+}
+
 }  // namespace
 }  // namespace soilbin::dem
