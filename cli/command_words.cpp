@@ -49,6 +49,13 @@ std::string sent_elsewhere(const std::string& command, const std::string& flag) 
   return "";
 }
 
+/// "export table": a command with those that it belongs to.
+std::string called(const CLI::App& command) {
+  const CLI::App* const parent = command.get_parent();
+  return parent == nullptr || parent->get_parent() == nullptr ? command.get_name()
+                                                              : called(*parent) + " " + command.get_name();
+}
+
 /// CLI11's sentences, and ours: what stands before the mark, what follows it, up to the end of a sentence of its own.
 struct Sentence {
   std::string_view begins, between, ends;
@@ -96,10 +103,9 @@ std::string unknown_flag(const CLI::App& command, const std::vector<std::string>
     const std::string flag = word.substr(0, word.find('='));
     if (!flag.starts_with("--") || std::ranges::find(flags, flag) != flags.end()) continue;
     std::string hint = sent_elsewhere(command.get_name(), flag);
-    if (!hint.empty())
-      return fmt::format("'{}' has no option '{}'\n  hint: {}", command.get_name(), clipped(flag), hint);
-    return fmt::format("'{}' has no option '{}'{}\n  hint: see soilbin {} --help", command.get_name(), clipped(flag),
-                       did_you_mean(flag, flags), command.get_name());
+    if (!hint.empty()) return fmt::format("'{}' has no option '{}'\n  hint: {}", called(command), clipped(flag), hint);
+    return fmt::format("'{}' has no option '{}'{}\n  hint: see soilbin {} --help", called(command), clipped(flag),
+                       did_you_mean(flag, flags), called(command));
   }
   return "";
 }

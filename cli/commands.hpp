@@ -44,6 +44,7 @@ void add_compare(CLI::App& app, Session& session);
 void add_failure_map(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);
 void add_reproduce(CLI::App& app, Session& session);
+void add_export(CLI::App& app, Session& session);
 void add_serve(CLI::App& app, Session& session);
 void add_check(CLI::App& app, Session& session);
 void add_init(CLI::App& app, Session& session);

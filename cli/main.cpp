@@ -52,6 +52,7 @@ std::vector<std::string> add_commands(CLI::App& app, Session& session) {
       {"Use measured data", {{add_design}, {add_runs}, {add_predict}, {add_loop}, {add_plates}, {add_shear}}},
       {"Set answers side by side",
        {with_grains(add_compare), {add_report}, with_grains(add_reproduce), with_grains(add_failure_map)}},
+      {"Take answers to other programs", {{add_export}}},
       {"Work with grains",
        {with_grains(add_bed),
         {add_mesh},
@@ -102,7 +103,8 @@ int refuse(const std::string& message) {
   return bad_input;
 }
 
-/// Names the nearest right word for the first word on the command line that is no subcommand or flag; "" for none.
+/// Names the nearest right word for the first word that is no subcommand or flag; "" for none. `app`: the program, or a
+/// command that has commands of its own; `words`: what stands behind it.
 std::string misspelt(const CLI::App& app, const std::vector<std::string>& words) {
   if (words.empty()) return "";
   const std::string& first = words.front();
@@ -119,6 +121,7 @@ std::string misspelt(const CLI::App& app, const std::vector<std::string>& words)
   if (command == nullptr)
     return fmt::format("unknown command '{}'{}\n  hint: commands are {}", clipped(first), did_you_mean(first, commands),
                        listed(commands));
+  if (!command->get_subcommands({}).empty()) return misspelt(*command, {words.begin() + 1, words.end()});
   return unknown_flag(*command, words);
 }
 

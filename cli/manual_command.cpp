@@ -141,6 +141,8 @@ std::string joined_names(const CLI::App& command) {
   std::string names;
   for (const CLI::Option* option : shown_options(command))
     for (const std::string& name : option->get_lnames()) names += (names.empty() ? "--" : " --") + name;
+  for (const CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; }))
+    names += " " + below->get_name() + " " + joined_names(*below);
   return names;
 }
 

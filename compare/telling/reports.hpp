@@ -40,6 +40,7 @@ struct BevameterReadings;
 struct Campaign;
 struct DriveSides;
 struct FailureMapResult;
+struct ForceTable;
 struct GoMap;
 struct Finding;
 struct MeasuredPlate;
@@ -80,6 +81,10 @@ Report report_on(const cone_index::Mobility& mobility, const std::string& soil);
 Report report_on(const VehicleAnswers& answers);
 /// A row for each slope and heading.
 std::string csv_of(const GoMap& map);
+
+/// A table of forces for other programs: its axes, and how far its interpolation lies from the model;
+/// soilbin-force-table/1.
+Report report_on(const ForceTable& table);
 
 /// What measured plate tests gave: the values with the parts of their errors, each plate by itself, what was set aside,
 /// and the lines that a campaign or a soil file takes; readings and Bekker's form drawn; soilbin-plates/1. `file`: name

@@ -1,0 +1,82 @@
+// soilbin export: answers and soils as other programs read them.
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
+#include "cli/progress.hpp"
+#include "cli/question.hpp"
+#include "compare/experiments/force_table_file.hpp"
+#include "compare/telling/reports.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+struct TableOptions {
+  OutputFlags outputs;
+  std::string hdf5, header, model;
+  TireFlags tire;
+};
+
+/// Leaves the question with the model that is asked for.
+void choose_model(Case& question, const TableOptions& options, bool names_effects) {
+  if (options.model.empty()) return;
+  check_model(options.model, {"bekker_wong", "rft", "cone_index"});
+  const ModelKind kind = read_word<ModelKind>("--model", options.model);
+  if (names_effects && kind != ModelKind::bekker_wong)
+    throw InputError(fmt::format("--effect means nothing to --model {}\n  hint: leave one of them out", options.model));
+  compare::keep_models(question.study, kind);
+}
+
+int export_table(const Question& inputs, const TableOptions& options, bool names_effects, const Session& session) {
+  Case question = inputs.ask(session.place);
+  choose_model(question, options, names_effects);
+  require_semi_empirical(question, session.place.library);
+  compare::Doubts notes = options.tire.apply(question, inputs.switches_effects_off());
+  const compare::ForceTable table = compare::force_table(std::move(question), shown_progress());
+  compare::Report report = compare::report_on(table);
+  report.resolved_case = write_case(table.question, session.place.effects);
+  Outputs outputs =
+      publish(report, options.outputs, joined_doubts(std::move(notes), table.question, {table.nodes}), session);
+  outputs.file(options.hdf5, [&] {
+    return compare::hdf5_of(table,
+                            {.name = options.hdf5, .version = SOILBIN_VERSION, .resolved_case = report.resolved_case});
+  });
+  outputs.file(options.header, [&] {
+    return compare::c_header_of(table, {.name = compare::c_name_of(options.header), .version = SOILBIN_VERSION});
+  });
+  return outputs.status(done);
+}
+
+void add_table(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand(
+      "table", "forces on a grid of load, slip, yaw and slopes, with a measured error of the interpolation");
+  const auto inputs = std::make_shared<Question>(*command);
+  const auto options = std::make_shared<TableOptions>();
+  add_value(*command, "--model", options->model, "NAME", "only this model: bekker_wong, rft or cone_index")
+      ->group("Model");
+  options->tire.add_to(*command);
+  add_file(*command, "--header", options->header, "FILE.h", "save one file of C with the table and its look-up");
+  add_file(*command, "--hdf5", options->hdf5, "FILE.h5", "save the table as HDF5");
+  options->outputs.add_to(*command, {.json = "soilbin-force-table/1, in SI", .csv = "save the table, a line a node"});
+  command->footer(
+      "The table runs over each condition that has several values, in every combination.\n"
+      "Example: soilbin export table --soil dry-sand --tire rover-wheel --load 40N..120N:10N --slip 0%..60%:5%\n"
+      "         --header rover.h --csv rover.csv");
+  command->callback([=, &session] {
+    session.action = [=, &session] { return export_table(*inputs, *options, command->count("--effect") > 0, session); };
+  });
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("export", "answers and soils as other programs read them");
+  command->require_subcommand(1);
+  add_table(*command, session);
+}
+
+}  // namespace soilbin::cli

@@ -1,0 +1,196 @@
+// A force table as one file of C. The look-up in it and look_up() of force_table.cpp are one algorithm in two
+// languages; tests compile the former and compare.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "compare/export/force_table.hpp"
+#include "compare/report/number_text.hpp"
+#include "compare/sweep/sources.hpp"
+#include "compare/sweep/varying.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+std::string c_number(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value + 0.0) : "NAN"; }
+
+/// Text that can't end a comment.
+std::string in_comment(std::string text) {
+  for (std::size_t at; (at = text.find("*/")) != text.npos;) text.replace(at, 2, "* /");
+  std::ranges::replace(text, '\n', ' ');
+  return text;
+}
+
+/// "load: 50 .. 200 N, 16 nodes".
+std::string axis_in_words(const TableAxis& axis) {
+  const std::string unit = unit_behind(axis.view->unit.empty() ? "-" : axis.view->unit);
+  return fmt::format("{}: {:.6g} .. {:.6g}{}, {} nodes", axis.view->name, axis.nodes.front() * axis.view->per_si,
+                     axis.nodes.back() * axis.view->per_si, unit, axis.nodes.size());
+}
+
+/// "[N]", "[rad]": how the function takes a condition.
+std::string si_unit_of(const ConditionView& view) {
+  const std::string unit(view.column_unit);
+  if (unit == "deg") return "rad";
+  if (unit == "kPa") return "Pa";
+  return unit == "%" ? "-" : unit;
+}
+
+/// Lines of the opening comment.
+std::string provenance_of(const ForceTable& table, const CHeaderAbout& about) {
+  const Scenario& scenario = table.question.scenario;
+  std::string text = fmt::format(
+      "/* Forces of a wheel on soft soil as a table, written by soilbin {} (soilbin export table).\n *\n * tire:  {}\n"
+      " * soil:  {}\n * model: {}\n",
+      about.version, in_comment(in_words(scenario.tire)), in_comment(in_words(scenario.soil)),
+      in_comment(table.nodes.choice.label));
+  for (const EffectChoice& effect : table.nodes.choice.effects) {
+    text += fmt::format(" *   {}:{}", effect.id, effect.form);
+    for (const auto& [name, value] : effect.parameters) text += fmt::format(", {} = {:.6g} (SI)", name, value);
+    text += "\n";
+  }
+  for (const SourcedValue& value : sourced_values(scenario))
+    text += fmt::format(" *   {} {}: {} [{}]\n", value.of, value.key, in_comment(in_words(value)),
+                        in_comment(value.source));
+  text += " *\n * Range:\n";
+  for (const TableAxis& axis : table.axes) text += fmt::format(" *   {}\n", axis_in_words(axis));
+  text += fmt::format(
+      " * The first node, and what is the same at all: {}\n *\n * Largest and root mean square error of the "
+      "interpolation "
+      "against the model, in the middles of {} cells:\n",
+      in_comment(in_words(table.fixed)), table.cells);
+  for (const TableChannel& channel : table.channels)
+    text += fmt::format(" *   {}: {:.3g}, {:.3g} {}; the largest value is {:.4g}\n", channel.channel->name,
+                        channel.largest_error, channel.rms_error, channel.channel->si_unit, channel.scale);
+  if (table.without_answer > 0)
+    text += fmt::format(" * {} of {} nodes have no answer of the model.\n", table.without_answer,
+                        table.nodes.answers.size());
+  return text;
+}
+
+/// The same for every table: NAME is its name, SIZE its capitals, ARGUMENTS and PLACE what its function takes.
+constexpr const char* look_up_in_c = R"(
+/* Multilinear between the nodes. Outside the range: the values at the nearest place within it, and NAME_CLAMPED.
+ * NAME_NO_ANSWER, and NAN in every value: the place is not a number, or the model has no answer at a corner. */
+static inline int NAME_lookup(ARGUMENTS, NAME_answer *answer) {
+  const double at[NAME_axes] = {PLACE};
+  double sums[NAME_numbers] = {0.0}, shares[NAME_axes];
+  int cells[NAME_axes], status = NAME_OK, axis, corner, k;
+  for (axis = 0; axis < NAME_axes; ++axis) {
+    const double *nodes = NAME_nodes[axis];
+    const int count = NAME_sizes[axis];
+    double value = at[axis];
+    int low = 0, high = count - 1;
+    if (value != value) {
+      for (k = 0; k < NAME_numbers; ++k) sums[k] = NAN;
+      memcpy(answer, sums, sizeof sums);
+      return NAME_NO_ANSWER;
+    }
+    if (value < nodes[0]) value = nodes[0], status = NAME_CLAMPED;
+    if (value > nodes[count - 1]) value = nodes[count - 1], status = NAME_CLAMPED;
+    while (high - low > 1) {
+      const int middle = (low + high) / 2;
+      if (nodes[middle] <= value) low = middle; else high = middle;
+    }
+    cells[axis] = low;
+    shares[axis] = (value - nodes[low]) / (nodes[low + 1] - nodes[low]);
+  }
+  for (corner = 0; corner < (1 << NAME_axes); ++corner) {
+    double weight = 1.0;
+    long node = 0;
+    for (axis = 0; axis < NAME_axes; ++axis) {
+      const int upper = (corner >> axis) & 1;
+      weight *= upper ? shares[axis] : 1.0 - shares[axis];
+      node = node * NAME_sizes[axis] + cells[axis] + upper;
+    }
+    if (weight == 0.0) continue;
+    for (k = 0; k < NAME_numbers; ++k) sums[k] += weight * NAME_table[node][k];
+  }
+  if (sums[0] != sums[0]) {
+    for (k = 0; k < NAME_numbers; ++k) sums[k] = NAN;
+    status = NAME_NO_ANSWER;
+  }
+  memcpy(answer, sums, sizeof sums);
+  return status;
+}
+
+#ifdef __cplusplus
+}
+#endif
+#endif
+)";
+
+std::string replaced(std::string text, const std::string& word, const std::string& by) {
+  for (std::size_t at = 0; (at = text.find(word, at)) != text.npos; at += by.size()) text.replace(at, word.size(), by);
+  return text;
+}
+
+}  // namespace
+
+std::string c_name_of(const std::string& file) {
+  std::string name = file.substr(file.find_last_of('/') + 1);
+  name = name.substr(0, name.find_last_of('.'));
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) != 0 || name.front() == '_')
+    name = "table" + std::string(name.starts_with('_') ? "" : "_") + name;
+  return name;
+}
+
+std::string c_header_of(const ForceTable& table, const CHeaderAbout& about) {
+  const std::string& name = about.name;
+  std::string capitals = name;
+  std::ranges::transform(capitals, capitals.begin(), [](unsigned char c) { return std::toupper(c); });
+  std::string arguments, place, sizes, pointers, fields, units, lists, limits;
+  for (const TableAxis& axis : table.axes) {
+    const std::string key(axis.view->name);
+    arguments += fmt::format("{}double {}", arguments.empty() ? "" : ", ", key);
+    place += (place.empty() ? "" : ", ") + key;
+    units += fmt::format("{}{} [{}]", units.empty() ? "" : ", ", key, si_unit_of(*axis.view));
+    sizes += fmt::format("{}{}", sizes.empty() ? "" : ", ", axis.nodes.size());
+    pointers += fmt::format("{}{}_{}", pointers.empty() ? "" : ", ", name, key);
+    std::string nodes;
+    for (const double node : axis.nodes) nodes += fmt::format("{}{:.17g}", nodes.empty() ? "" : ", ", node + 0.0);
+    lists += fmt::format("static const double {}_{}[{}] = {{{}}};\n", name, key, axis.nodes.size(), nodes);
+  }
+  for (const char* suffix : {"", "_std_error"})
+    for (const TableChannel& channel : table.channels)
+      fields += fmt::format("  double {}{}; /* {}[{}] */\n", channel.channel->name, suffix,
+                            *suffix == '\0' ? "" : "from the soil's standard deviations ", channel.channel->si_unit);
+  for (const TableChannel& channel : table.channels) {
+    std::string key(channel.channel->name);
+    std::ranges::transform(key, key.begin(), [](unsigned char c) { return std::toupper(c); });
+    limits += fmt::format("#define {0}_{1}_LARGEST_ERROR {2:.9g}\n#define {0}_{1}_RMS_ERROR {3:.9g}\n", capitals, key,
+                          channel.largest_error, channel.rms_error);
+  }
+  std::string text = provenance_of(table, about);
+  text += fmt::format(
+      " *\n * NAME_lookup({0}, &answer) returns NAME_OK, NAME_CLAMPED or NAME_NO_ANSWER.\n * It takes {1}.\n"
+      " * Signs: drawbar pull along travel, less the slope's share of the load; lateral force to the left of travel.\n"
+      " * Not with -ffast-math, which takes NAN away.\n"
+      " */\n#ifndef SIZE_H\n#define SIZE_H\n#include <math.h>\n#include <string.h>\n#ifdef __cplusplus\nextern \"C\" "
+      "{{\n#endif\n\n",
+      place, units);
+  text += "enum { NAME_OK = 0, NAME_CLAMPED = 1, NAME_NO_ANSWER = 2 };\n";
+  text += fmt::format("enum {{ NAME_axes = {}, NAME_numbers = {} }};\n\ntypedef struct {{\n{}}} NAME_answer;\n\n",
+                      table.axes.size(), 2 * table.channels.size(), fields);
+  text += "/* Of the interpolation, against the model, in SI. */\n" + limits + "\n" + lists;
+  text += fmt::format(
+      "static const double *const NAME_nodes[NAME_axes] = {{{}}};\nstatic const int NAME_sizes[NAME_axes] = {{{}}};\n\n"
+      "/* A row a node, the last axis fastest: the members of NAME_answer. */\nstatic const double "
+      "NAME_table[{}][NAME_numbers] = {{\n",
+      pointers, sizes, table.nodes.answers.size());
+  for (std::size_t node = 0; node < table.nodes.answers.size(); ++node) {
+    std::string row;
+    for (const TableChannel& channel : table.channels) row += c_number(channel.values[node]) + ", ";
+    for (const TableChannel& channel : table.channels) row += c_number(channel.std_errors[node]) + ", ";
+    text += "  {" + row.substr(0, row.size() - 2) + "},\n";
+  }
+  text += "};\n";
+  text += replaced(replaced(look_up_in_c, "ARGUMENTS", arguments), "PLACE", place);
+  return replaced(replaced(text, "NAME_", name + "_"), "SIZE_H", capitals + "_H");
+}
+
+}  // namespace soilbin::compare
