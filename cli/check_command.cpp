@@ -13,11 +13,11 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/recorded/step_pair.hpp"
-#include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/vehicle/vehicle.hpp"
 #include "cone_index/vehicle.hpp"
 #include "scenario/nearest_word.hpp"
+#include "scenario/scm_soil.hpp"
 #include "scenario/yaml_node.hpp"
 
 namespace soilbin::cli {
@@ -54,8 +54,15 @@ fs::path file_named(const std::string& name, const Workplace& place) {
   return fs::is_directory(name, error) ? fs::path(name) / "campaign.yaml" : fs::path(name);
 }
 
+CheckedFile checked_soil(const Soil& soil) {
+  compare::Doubts doubts = compare::doubts(soil);
+  if (soil.granular) append(doubts, compare::grain_value_doubts(*soil.granular));
+  return {fmt::format("soil '{}'", soil.name), doubts};
+}
+
 CheckedFile judge(const fs::path& file, const Workplace& place) {
   if (file.extension() == ".json") {
+    if (is_scm_soil(file)) return checked_soil(read_soil(file));
     if (compare::is_experiment_store(file)) {
       const compare::ExperimentStore store(file);
       return {"store of " + compare::counted(store.size(), "experiment"), {}};
@@ -76,12 +83,7 @@ CheckedFile judge(const fs::path& file, const Workplace& place) {
     const Tire tire = read_tire(file);
     return {fmt::format("tire {}", in_words(tire)), compare::doubts(tire)};
   }
-  if (format == soil_format) {
-    const Soil soil = read_soil(file);
-    compare::Doubts doubts = compare::doubts(soil);
-    if (soil.granular) append(doubts, compare::grain_value_doubts(*soil.granular));
-    return {fmt::format("soil '{}'", soil.name), doubts};
-  }
+  if (format == soil_format) return checked_soil(read_soil(file));
   if (format == cone_index::vehicle_format) {
     const cone_index::Vehicle vehicle = cone_index::parse_vehicle(read_source_text(file, largest_yaml));
     cone_index::vehicle_cone_index(vehicle);  // refuses what no vehicle can be

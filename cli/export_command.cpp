@@ -8,9 +8,12 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
+#include "compare/doubts/declared_doubts.hpp"
 #include "compare/experiments/force_table_file.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/source_text.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -51,6 +54,37 @@ int export_table(const Question& inputs, const TableOptions& options, bool names
   return outputs.status(done);
 }
 
+struct ScmOptions {
+  std::string soil, output;
+  OutputFlags outputs;
+};
+
+int export_scm(const ScmOptions& options, const Session& session) {
+  const Soil soil = find_soil(options.soil, session.place.library);
+  if (!soil.semi_empirical)
+    throw InputError(
+        fmt::format("soil '{}' has no semi_empirical values, which SCM is made of\n"
+                    "  hint: soilbin list soils says which have; soilbin bevameter finds those of grains",
+                    clipped(soil.name)));
+  const compare::Report report = compare::report_on_scm(soil, SOILBIN_VERSION);
+  Outputs outputs = publish(report, options.outputs, compare::doubts(soil), session);
+  outputs.file(options.output, [&] { return compare::json_text(report.data()); });
+  return outputs.status(done);
+}
+
+void add_scm(CLI::App& app, Session& session) {
+  CLI::App* command =
+      app.add_subcommand("scm", "a soil as Chrono's SCM terrain reads it, and which of our effects that lacks");
+  const auto options = std::make_shared<ScmOptions>();
+  add_value(*command, "soil", options->soil, "SOIL", "a soil of the library, or a file")->required();
+  add_file(*command, "--output", options->output, "FILE.json", "save the file that Chrono reads");
+  options->outputs.add_to(*command, {.json = "what --output saves"});
+  command->footer(
+      "Each --soil takes the file too: soilbin estimate --soil scm.json ...\n"
+      "Example: soilbin export scm dry-sand --output scm.json");
+  command->callback([=, &session] { session.action = [=, &session] { return export_scm(*options, session); }; });
+}
+
 void add_table(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand(
       "table", "forces on a grid of load, slip, yaw and slopes, with a measured error of the interpolation");
@@ -77,6 +111,7 @@ void add_export(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("export", "answers and soils as other programs read them");
   command->require_subcommand(1);
   add_table(*command, session);
+  add_scm(*command, session);
 }
 
 }  // namespace soilbin::cli

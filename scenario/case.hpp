@@ -103,7 +103,7 @@ Case parse_case(const SourceText& source, const Library& library, const EffectVo
 Tire read_tire(const std::filesystem::path& path);
 Tire parse_tire(const SourceText& source);
 
-/// Reads a soil file (soilbin-soil/1). A soil without a name gets the file's.
+/// Reads a soil file (soilbin-soil/1), or one of Chrono's SCM (scm_soil.hpp). One without a name gets the file's.
 Soil read_soil(const std::filesystem::path& path);
 Soil parse_soil(const SourceText& source);
 

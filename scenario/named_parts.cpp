@@ -2,10 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <type_traits>
+
 #include "scenario/beds.hpp"
 #include "scenario/case.hpp"
 #include "scenario/mapping_reader.hpp"
 #include "scenario/nearest_word.hpp"
+#include "scenario/scm_soil.hpp"
 #include "scenario/tire_size.hpp"
 
 namespace soilbin {
@@ -45,6 +48,8 @@ T read_checked(const YamlNode& node, const Reading& reading, const std::vector<s
 
 template <class T>
 T parse_file(const SourceText& source) {
+  if constexpr (std::is_same_v<T, Soil>)
+    if (names_json(source.file)) return parse_scm_soil(source);
   const YamlNode document = parse_yaml(source);
   const Reading reading{&source, std::nullopt, nullptr, ""};
   expect_format(document, Kind<T>::format, reading);
@@ -58,7 +63,9 @@ T read_file(const fs::path& path) {
   return parse_file<T>(read_source_text(path, largest_yaml));
 }
 
-bool looks_like_path(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(".yaml"); }
+bool looks_like_path(const std::string& name) {
+  return name.find('/') != std::string::npos || name.ends_with(".yaml") || name.ends_with(".json");
+}
 
 template <class T>
 std::string not_found(const std::string& name, const Library& library) {

@@ -86,6 +86,10 @@ std::string csv_of(const GoMap& map);
 /// soilbin-force-table/1.
 Report report_on(const ForceTable& table);
 
+/// A soil as Chrono's SCM terrain reads it (scenario/scm_soil.hpp): its values with their units, what is chosen, which
+/// of our effects SCM lacks. The data are SCM's file; `version`: of soilbin.
+Report report_on_scm(const Soil& soil, const std::string& version);
+
 /// What measured plate tests gave: the values with the parts of their errors, each plate by itself, what was set aside,
 /// and the lines that a campaign or a soil file takes; readings and Bekker's form drawn; soilbin-plates/1. `file`: name
 /// of the readings' file.

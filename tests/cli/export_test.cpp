@@ -195,5 +195,46 @@ TEST(ExportTable, RefusesWithAHint) {
       HasSubstr("--effect means nothing to --model rft"));
 }
 
+TEST(ExportScm, ComesBackAsItWent) {
+  for (const std::string soil : {"dry-sand", "cmu-sand", "lunar-regolith"}) {
+    const Scratch scratch;
+    const std::string file = (scratch / "scm.json").string();
+    const Outcome run = soilbin("export scm " + soil + " --output '" + file + "'");
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.out, AllOf(HasSubstr("Mohr_friction"), HasSubstr("slip sinkage"), HasSubstr("N/m^(n+2)")));
+    const std::string asked = " --tire rover-wheel --load 65N --slip 20% --yaw 3deg --json";
+    const auto before = soilbin("estimate --soil " + soil + asked).json().at("rows")[0];
+    const auto after = soilbin("estimate --soil '" + file + "'" + asked).json().at("rows")[0];
+    for (const char* channel : {"drawbar_pull", "torque", "sinkage", "lateral_force"}) {
+      const auto value = before.at(channel).get<double>(), sd = before.at("std_error").at(channel).get<double>();
+      EXPECT_NEAR(after.at(channel).get<double>(), value, 1e-9 * std::abs(value)) << soil << channel;
+      EXPECT_NEAR(after.at("std_error").at(channel).get<double>(), sd, 1e-9 * sd) << soil << channel;
+    }
+    EXPECT_THAT(soilbin("check '" + file + "'").out, HasSubstr("valid: soil '" + soil + "'"));
+  }
+}
+
+TEST(ExportScm, WritesTheKeysThatChronoReads) {
+  const auto file = soilbin("export scm dry-sand --json").json();
+  EXPECT_EQ(file.at("Type"), "SCM");
+  EXPECT_TRUE(file.at("Patch dimensions").at("Length").is_number());
+  EXPECT_TRUE(file.at("Grid spacing").is_number());
+  EXPECT_TRUE(file.at("Simulation settings").at("Fix proxies").is_boolean());
+  const auto& soil = file.at("Soil parameters");
+  for (const char* key : {"Bekker Kphi", "Bekker Kc", "Bekker n exponent", "Mohr cohesive limit", "Mohr friction limit",
+                          "Janosi shear coefficient", "Elastic stiffness", "Damping"})
+    EXPECT_TRUE(soil.at(key).is_number()) << key;
+  EXPECT_GT(soil.at("Elastic stiffness").get<double>(), soil.at("Bekker Kphi").get<double>());
+  EXPECT_GT(soil.at("Mohr friction limit").get<double>(), 20) << "in degrees";
+}
+
+TEST(ExportScm, SaysWhatIsMissing) {
+  const Scratch scratch;
+  const std::string file = scratch.write("scm.json", R"({"Soil parameters": {"Bekker Kphi": 2e6}})").string();
+  const Outcome run = soilbin("estimate --soil '" + file + "' --tire rover-wheel --load 65N --slip 20%");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("lacks Bekker Kc, Bekker n exponent, Mohr cohesive limit"));
+}
+
 }  // namespace
 }  // namespace soilbin::cli::test

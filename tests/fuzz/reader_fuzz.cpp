@@ -86,6 +86,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   must_answer("case", [&] { read_as_case(text); });
   must_answer("tire", [&] { soilbin::parse_tire(make_source_text(text, "tire.yaml")); });
   must_answer("soil", [&] { soilbin::parse_soil(make_source_text(text, "soil.yaml")); });
+  must_answer("SCM soil", [&] { soilbin::parse_soil(make_source_text(text, "soil.json")); });
   must_answer("campaign", [&] { read_as_campaign(text); });
   must_answer("vehicle", [&] {
     soilbin::compare::parse_vehicle_case(make_source_text(text, std::string(cases) + "/vehicles/fuzz.yaml"),
@@ -106,7 +107,10 @@ std::vector<std::string> seeds() {
   for (const auto& entry : fs::recursive_directory_iterator(cases))
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
-  std::vector<std::string> all;
+  std::vector<std::string> all = {
+      R"({"Soil parameters": {"Bekker Kphi": 2e6, "Bekker Kc": 0, "Bekker n exponent": 1.1, "Mohr cohesive limit": 0,
+          "Mohr friction limit": 30, "Janosi shear coefficient": 0.01}, // SCM
+          "soilbin": {"sd": {"Bekker Kphi": 1e5, "assumed share": 0.1}, "beside SCM": {"density": 1600}}})"};
   for (const fs::path& file : files) {
     std::string text = soilbin::read_source_text(file, soilbin::largest_yaml).text;
     const fs::path csv = file.parent_path() / "runs.csv";
