@@ -10,6 +10,7 @@
 #include "cli/question.hpp"
 #include "compare/doubts/declared_doubts.hpp"
 #include "compare/experiments/force_table_file.hpp"
+#include "compare/export/wheel_slip.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
@@ -85,6 +86,36 @@ void add_scm(CLI::App& app, Session& session) {
   command->callback([=, &session] { session.action = [=, &session] { return export_scm(*options, session); }; });
 }
 
+struct GazeboOptions {
+  OutputFlags outputs;
+  TireFlags tire;
+};
+
+int export_gazebo(const Question& inputs, const GazeboOptions& options, const Session& session) {
+  Case question = inputs.ask(session.place);
+  require_semi_empirical(question, session.place.library);
+  compare::Doubts notes = options.tire.apply(question, inputs.switches_effects_off());
+  const compare::WheelSlipFit fit = compare::wheel_slip_of(std::move(question));
+  compare::Report report = compare::report_on(fit);
+  report.resolved_case = write_case(fit.question, session.place.effects);
+  return publish(report, options.outputs, joined_doubts(std::move(notes), fit.question, fit.answers), session)
+      .status(done);
+}
+
+void add_gazebo(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand(
+      "gazebo", "slip compliance and friction of a wheel for Gazebo's plugin WheelSlip, fitted to its curves");
+  const auto inputs = std::make_shared<Question>(*command);
+  const auto options = std::make_shared<GazeboOptions>();
+  options->tire.add_to(*command);
+  options->outputs.add_to(*command, {.json = "soilbin-wheel-slip/1, in SI"});
+  command->footer(
+      "The longitudinal line is fitted at slips up to 60 %, the lateral one at the slip that is given.\n"
+      "Example: soilbin export gazebo --soil dry-sand --tire rover-wheel --load 65N --slip 20%");
+  command->callback(
+      [=, &session] { session.action = [=, &session] { return export_gazebo(*inputs, *options, session); }; });
+}
+
 void add_table(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand(
       "table", "forces on a grid of load, slip, yaw and slopes, with a measured error of the interpolation");
@@ -112,6 +143,7 @@ void add_export(CLI::App& app, Session& session) {
   command->require_subcommand(1);
   add_table(*command, session);
   add_scm(*command, session);
+  add_gazebo(*command, session);
 }
 
 }  // namespace soilbin::cli

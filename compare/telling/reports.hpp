@@ -53,6 +53,7 @@ struct Prediction;
 struct Reproduction;
 struct VehicleAnswers;
 struct WheelLimits;
+struct WheelSlipFit;
 
 /// What a wheel can do at best: of each answer a table over the slopes and what the steepest one is. `at_limits`:
 /// answers_at_limits of the answers, to which each row's remark belongs.
@@ -85,6 +86,9 @@ std::string csv_of(const GoMap& map);
 /// A table of forces for other programs: its axes, and how far its interpolation lies from the model;
 /// soilbin-force-table/1.
 Report report_on(const ForceTable& table);
+
+/// A wheel as Gazebo's plugin WheelSlip has it: two lines fitted to the model's curves; soilbin-wheel-slip/1.
+Report report_on(const WheelSlipFit& fit);
 
 /// A soil as Chrono's SCM terrain reads it (scenario/scm_soil.hpp): its values with their units, what is chosen, which
 /// of our effects SCM lacks. The data are SCM's file; `version`: of soilbin.

@@ -151,7 +151,7 @@ TEST_F(ExportedHeader, ClampsAndSaysSo) {
   EXPECT_TRUE(std::isnan(found[2][1]));
 }
 
-// 0.1 us; the limit is that of a machine which others use.
+// Some 0.05 us; the limit is that of a machine which others use.
 TEST_F(ExportedHeader, LooksUpInAboutAMicrosecond) {
   ASSERT_EQ(shell("cd '" + folder() + "' && ./look_up time >took"), 0);
   const double nanoseconds = numbers_of(text_of(scratch / "took")).front().front();
@@ -234,6 +234,16 @@ TEST(ExportScm, SaysWhatIsMissing) {
   const Outcome run = soilbin("estimate --soil '" + file + "' --tire rover-wheel --load 65N --slip 20%");
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.err, HasSubstr("lacks Bekker Kc, Bekker n exponent, Mohr cohesive limit"));
+}
+
+TEST(ExportGazebo, GivesThePluginsNumbers) {
+  const Outcome run = soilbin("export gazebo" + rover_on_sand + " --load 65N --slip 20%");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("<slip_compliance_lateral>"), HasSubstr("<wheel_radius>")));
+  const auto answer = soilbin("export gazebo" + rover_on_sand + " --load 65N --slip 20% --json").json();
+  EXPECT_EQ(answer.at("format"), "soilbin-wheel-slip/1");
+  EXPECT_GT(answer.at("longitudinal").at("slip_compliance").get<double>(), 0.0);
+  EXPECT_EQ(soilbin("export gazebo" + rover_on_sand + " --load 65N --slip 20% --yaw 4deg").status, 2);
 }
 
 }  // namespace
