@@ -134,6 +134,14 @@ Estimate mean_with_error(std::span<const double> series) {
   return average.mean;
 }
 
+Estimate mean_of_repeats(std::span<const Estimate> repeats) {
+  std::vector<double> values;
+  double squares = 0.0;
+  for (const Estimate& one : repeats) values.push_back(one.value), squares += one.std_error * one.std_error;
+  const Estimate mean = mean_of(values);
+  return {mean.value, std::max(mean.std_error, std::sqrt(squares) / static_cast<double>(values.size()))};
+}
+
 std::size_t end_of_start_up(std::span<const double> series) {
   constexpr std::size_t five = 5;
   const std::vector<double> means = block_means(series, five);

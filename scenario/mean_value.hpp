@@ -28,6 +28,11 @@ double autocorrelation_time(std::span<const double> series);
 /// samples: the plain error of the mean; one: 0.
 Estimate mean_with_error(std::span<const double> series);
 
+/// Mean of repeats that each tell an error, such as packings of one test; and its standard error: by how much the
+/// repeats differ, or, where that is more, by what each one tells of itself (both over the root of their number). Few
+/// repeats may agree by chance. A single one: itself; none: NaN.
+Estimate mean_of_repeats(std::span<const Estimate> repeats);
+
 /// The sample at which the start-up is best cut off: of all cuts in the first
 /// half, the one that minimises the estimated variance of the mean of what is
 /// left, sum (x - mean)^2/n^2, over means of five samples (MSER-5, White 1997).

@@ -12,9 +12,9 @@
 #include "dem/element_tests/angle_of_repose.hpp"
 #include "dem/element_tests/bevameter_tests.hpp"
 #include "dem/element_tests/direct_shear.hpp"
-#include "dem/element_tests/over_packings.hpp"
 #include "dem/element_tests/tilting_board.hpp"
 #include "dem/element_tests/triaxial.hpp"
+#include "scenario/mean_value.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
@@ -228,7 +228,7 @@ std::vector<std::string> told_means(const std::vector<MeanOverPackings>& means, 
   std::vector<std::string> sentences;
   json = Json::array();
   for (const MeanOverPackings& mean : means) {
-    const Estimate over = dem::over_packings(mean.each);
+    const Estimate over = mean_of_repeats(mean.each);
     json.push_back({{key, mean.set}, {value_key, estimate_json(over)}, {"packings", mean.each.size()}});
     if (mean.each.size() > 1)
       sentences.push_back(fmt::format("{} {} {}: {} kPa{}", what, number(mean.set * per_si), unit, number(over, 1e-3),
@@ -270,7 +270,7 @@ Report report_on(const std::vector<dem::TiltingBoardResult>& boards, const std::
              column(board.curve, [](const Sample& s) { return s.angle / degree; }),
              column(board.curve, times(&Sample::slide, 1e3)));
   }
-  const Estimate onset = dem::over_packings(onsets), gone = dem::over_packings(gones);
+  const Estimate onset = mean_of_repeats(onsets), gone = mean_of_repeats(gones);
   std::string told = fmt::format("{} grains begin to slide at {} deg; slid by a grain at {} deg{}", first.grains,
                                  degrees(onset), degrees(gone), of_packings(boards.size()));
   if (slid == 0)
@@ -314,10 +314,10 @@ Report report_on(const std::vector<dem::AngleOfReposeResult>& heaps, const std::
     add_line(plot, label_of("", heap.packing, heaps.size() > 1), column(heap.profile, times(&Ring::radius, 1e3)),
              column(heap.profile, times(&Ring::height, 1e3)));
   }
-  const Estimate angle = dem::over_packings(angles), height = dem::over_packings(heights);
+  const Estimate angle = mean_of_repeats(angles), height = mean_of_repeats(heights);
   std::vector<std::string> sentences{fmt::format(
       "angle of repose {} deg{}: {} grains, heap {} grains high, {} mm in radius", degrees(angle),
-      of_packings(heaps.size()), first.grains, number(height.value, 3), number(dem::over_packings(bases).value * 1e3))};
+      of_packings(heaps.size()), first.grains, number(height.value, 3), number(mean_of_repeats(bases).value * 1e3))};
   if (heaps.size() == 1)
     sentences.emplace_back("The ± is by the sectors of one heap: packings differ by more (--packings 3).");
   if (height.value < dem::lowest_heap)

@@ -220,8 +220,14 @@ std::vector<AngleOfReposeResult> heaps_of_repose(const GranularSoil& soil, Angle
     constexpr double spare = 1.05, smallest = 1.1, largest = 2;
     const double factor = std::clamp(spare * wanted / heaps.front().height, smallest, largest);
     if (heaps.front().grains * factor * factor * factor > most_heap_grains) break;
-    settings.radius *= factor, settings.height *= factor;
-    heaps.front() = angle_of_repose(soil, settings, how);
+    AngleOfReposeSettings larger = settings;
+    larger.radius *= factor, larger.height *= factor;
+    try {
+      heaps.front() = angle_of_repose(soil, larger, how);
+    } catch (const RunStopped&) {  // soft grains that fall deeper overlap
+      break;
+    }
+    settings = larger;
   }
   for (int k = 1; k < packings; ++k) {
     ++settings.packing;

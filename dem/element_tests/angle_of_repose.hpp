@@ -53,8 +53,9 @@ AngleOfReposeResult angle_of_repose(const GranularSoil& soil, const AngleOfRepos
 inline constexpr int most_heap_grains = 20000;
 
 /// Heaps of the seeds settings.packing, +1, ... Where the first one is lower than `settings.lowest`, it is poured again
-/// from a cylinder that is larger all round, until it is high enough or would take more than most_heap_grains; the
-/// others get that cylinder. Throws as angle_of_repose.
+/// from a cylinder that is larger all round, until it is high enough, would take more than most_heap_grains, or is
+/// stopped because its grains, which fall deeper, overlap too much; the others get the last cylinder that stood. Throws
+/// as angle_of_repose.
 std::vector<AngleOfReposeResult> heaps_of_repose(const GranularSoil& soil, AngleOfReposeSettings settings, int packings,
                                                  const WorkOptions& how = {});
 

@@ -105,7 +105,7 @@ StrengthLine fit_over_packings(std::span<const StrengthPoint> points, std::span<
   const auto widen = [](Estimate& told, const std::vector<double>& each) {
     const double before = told.std_error;
     told.std_error = std::max(before, mean_of(each).std_error);
-    return told.std_error / before;
+    return before > 0 ? told.std_error / before : 1.0;
   };
   all.covariance *= widen(all.cohesion, cohesions) * widen(all.friction_angle, angles);
   widen(all.friction_angle_without_cohesion, angles_without_cohesion);

@@ -35,7 +35,7 @@ StrengthLine fit_strength(std::span<const StrengthPoint> points);
 StrengthLine fit_circles(std::span<const StrengthPoint> points);
 
 /// The line of all points by one of these fits. Points of one packing err together, since its grains lie as they lie
-/// under each stress, so errors are also those of the packings' own lines (over_packings), where these are larger.
+/// under each stress, so errors are also those of the packings' own lines, where these are larger.
 /// `packings`: of each point.
 StrengthLine fit_over_packings(std::span<const StrengthPoint> points, std::span<const std::uint64_t> packings,
                                StrengthLine (*fit)(std::span<const StrengthPoint>));

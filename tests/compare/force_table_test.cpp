@@ -11,7 +11,7 @@
 #include "dem/archive/hdf5.hpp"
 #include "scenario/errors.hpp"
 
-namespace soilbin::compare::test {
+namespace soilbin::compare {
 namespace {
 
 using testing::AllOf;
@@ -201,4 +201,4 @@ TEST(ForceTable, NoNameEndsTheCommentOfItsHeader) {
 }
 
 }  // namespace
-}  // namespace soilbin::compare::test
+}  // namespace soilbin::compare

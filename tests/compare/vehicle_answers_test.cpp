@@ -14,7 +14,7 @@
 #include "scenario/unit.hpp"
 #include "scenario/yaml_node.hpp"
 
-namespace soilbin::compare::test {
+namespace soilbin::compare {
 namespace {
 
 using testing::HasSubstr;
@@ -201,4 +201,4 @@ TEST(SlowVehicleAnswers, NasasRoverOnSlopesIsMetToFourDegrees) {
 }
 
 }  // namespace
-}  // namespace soilbin::compare::test
+}  // namespace soilbin::compare

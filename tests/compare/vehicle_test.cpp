@@ -12,7 +12,7 @@
 #include "compare/vehicle/steady_vehicle.hpp"
 #include "tests/fixtures.hpp"
 
-namespace soilbin::compare::test {
+namespace soilbin::compare {
 namespace {
 
 using testing::HasSubstr;
@@ -307,4 +307,4 @@ TEST(Vehicle, SaysWhichWheelGaveOut) {
 }
 
 }  // namespace
-}  // namespace soilbin::compare::test
+}  // namespace soilbin::compare

@@ -11,7 +11,7 @@
 #include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
 
-namespace soilbin::compare::test {
+namespace soilbin::compare {
 namespace {
 
 Case rover_question() {
@@ -112,4 +112,4 @@ TEST(WheelSlip, IsToldAsThePluginsSdf) {
 }
 
 }  // namespace
-}  // namespace soilbin::compare::test
+}  // namespace soilbin::compare

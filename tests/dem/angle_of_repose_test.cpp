@@ -5,22 +5,22 @@
 
 #include <vector>
 
-#include "dem/element_tests/over_packings.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/mean_value.hpp"
 #include "tests/dem/small_bed.hpp"
 
 namespace soilbin::dem {
 namespace {
 
 TEST(OverPackings, TheirScatterIsTheErrorWhereItIsLarger) {
-  const Estimate told = over_packings(std::vector<Estimate>{{1, 0.1}, {3, 0.1}});
+  const Estimate told = mean_of_repeats(std::vector<Estimate>{{1, 0.1}, {3, 0.1}});
   EXPECT_DOUBLE_EQ(told.value, 2);
   EXPECT_DOUBLE_EQ(told.std_error, 1) << "standard deviation sqrt 2, over sqrt 2";
 }
 
 TEST(OverPackings, PackingsThatAgreeByChanceKeepTheirOwnErrors) {
-  EXPECT_DOUBLE_EQ(over_packings(std::vector<Estimate>{{2, 0.3}, {2, 0.4}}).std_error, 0.5 / 2);
-  EXPECT_DOUBLE_EQ(over_packings(std::vector<Estimate>{{2, 0.3}}).std_error, 0.3);
+  EXPECT_DOUBLE_EQ(mean_of_repeats(std::vector<Estimate>{{2, 0.3}, {2, 0.4}}).std_error, 0.5 / 2);
+  EXPECT_DOUBLE_EQ(mean_of_repeats(std::vector<Estimate>{{2, 0.3}}).std_error, 0.3);
 }
 
 TEST(HeapsOfRepose, CannotBeFewerThanOne) {
@@ -33,7 +33,8 @@ TEST(HeapsOfRepose, CannotBeFewerThanOne) {
 TEST(SlowHeapsOfRepose, GrowUntilTheyAreHighEnough) {
   AngleOfReposeSettings small;
   small.radius = 3, small.height = 5;
-  const WorkOptions how{.threads = 1};
+  WorkOptions how;
+  how.threads = 1;
   const AngleOfReposeResult alone = angle_of_repose(test::soft_soil(), small, how);
   small.lowest = 1.2 * alone.height / alone.mean_diameter;
   const std::vector<AngleOfReposeResult> heaps = heaps_of_repose(test::soft_soil(), small, 2, how);
