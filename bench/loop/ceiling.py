@@ -27,6 +27,7 @@ from pathlib import Path
 import numpy as np
 from scipy import stats
 
+from kept import Kept
 from nature import campaign, design, noise, sensitivity, sets
 from nature import wheel as base
 from nature.families import Form, build, catalogue, unknown
@@ -347,16 +348,14 @@ def main():
     options = parser.parse_args()
     if options.self_test:
         return self_test()
-    kept = json.loads(options.posteriors.read_text()) if options.posteriors and options.posteriors.exists() else {}
+    kept = Kept(options.posteriors)
     for folder in options.folders:
         truth = json.loads((folder / "truth.json").read_text())
         cases = []
         for name in sorted(truth)[:options.first]:
             key = f"{folder.name}/{name}"
             if key not in kept:
-                kept[key] = posterior(campaign.read(folder / name), options.sizes, outside=options.unknown)
-                if options.posteriors:
-                    options.posteriors.write_text(json.dumps(kept, indent=1) + "\n")
+                kept.keep(key, posterior(campaign.read(folder / name), options.sizes, outside=options.unknown))
             if kept[key]:
                 cases.append(((truth[name]["effects"] or ["unknown"])[0], kept[key]))
         print(f"{folder.name}: {len(cases)} campaigns")

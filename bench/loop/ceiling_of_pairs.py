@@ -22,6 +22,7 @@ from pathlib import Path
 import numpy as np
 
 import ceiling
+from kept import Kept
 from nature import campaign, sets
 from nature.selftest import Checks
 
@@ -260,13 +261,12 @@ def main():
     if options.self_test or not options.folder:
         return self_test()
     truth = json.loads((options.folder / "truth.json").read_text())
-    kept = json.loads(options.posteriors.read_text()) if options.posteriors and options.posteriors.exists() else {}
+    kept = Kept(options.posteriors)
     cases = {}
     for name in [n for n in sorted(truth) if len(truth[n]["effects"]) == 2][:options.first]:
         if name not in kept:
-            kept[name] = Pairs(campaign.read(options.folder / name), np.random.default_rng([5, len(cases)])).posterior()
-            if options.posteriors:
-                options.posteriors.write_text(json.dumps(kept, indent=1) + "\n")
+            rng = np.random.default_rng([5, len(cases)])
+            kept.keep(name, Pairs(campaign.read(options.folder / name), rng).posterior())
         if kept[name]:
             cases[name] = (" + ".join(sorted(truth[name]["effects"])), kept[name])
     summary(cases, json.loads(options.answers.read_text()) if options.answers else None)

@@ -34,6 +34,7 @@ from scipy import stats
 
 import measure
 from fitting import CATALOGUE, CHANNELS, SOIL_KEYS, Campaign, Fit, Fitter, changed
+from kept import Kept
 from nature import campaign as nature_campaign
 from nature import sets
 from nature.selftest import Checks
@@ -305,12 +306,10 @@ def main():
     if options.self_test:
         return self_test()
     truth = json.loads((options.folder / "truth.json").read_text())
-    found = json.loads(options.answers.read_text()) if options.answers and options.answers.exists() else {}
+    found = Kept(options.answers)
     for name in sorted(truth)[:options.first]:
         if name not in found:
-            found[name] = answer(options.folder / name, held=options.hold_soil)
-            if options.answers:
-                options.answers.write_text(json.dumps(found, indent=1) + "\n")
+            found.keep(name, answer(options.folder / name, held=options.hold_soil))
     report(options.folder, truth, found, json.loads(options.loop.read_text()) if options.loop else None)
     return 0
 
