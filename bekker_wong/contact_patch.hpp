@@ -22,6 +22,7 @@ struct SoilValues {
   double c2 = 0.0;
   double density = 1500.0;            ///< [kg/m^3]
   double gravity = standard_gravity;  ///< [m/s^2]
+  double reference_sinkage = 1.0;     ///< whose pressure an error of n leaves as it is [m]; read by standard errors
   /// k_c/b + k_phi for a contact of width b [m].
   double pressure_modulus(double width) const { return k_c / width + k_phi; }
 };

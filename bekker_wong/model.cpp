@@ -14,7 +14,9 @@
 namespace soilbin::bekker_wong {
 
 SoilValues values_of(const SemiEmpiricalSoil& soil) {
-  SoilValues values{.density = bulk_density(soil), .gravity = gravity_of(soil)};
+  SoilValues values{.density = bulk_density(soil),
+                    .gravity = gravity_of(soil),
+                    .reference_sinkage = soil.reference_sinkage.value_or(1.0)};
   for (std::size_t i = 0; i < soil_parameters.size(); ++i)
     values.*soil_members[i] = (soil.*soil_parameters[i].value).value;
   return values;

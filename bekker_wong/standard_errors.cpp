@@ -79,6 +79,10 @@ BalanceDerivatives::Channels BalanceDerivatives::by(std::size_t parameter, doubl
   const auto with = [&](double value) {
     SoilValues soil = soil_;
     soil.*member = value;
+    if (member == &SoilValues::exponent) {
+      const double follows = std::pow(soil.reference_sinkage, x - value);  // modulus_factor() of the declared soil
+      soil.k_c *= follows, soil.k_phi *= follows;
+    }
     return point(soil, effects_, theta_1_, value - x);
   };
   return balanced(with(beside.below), with(beside.above));

@@ -31,6 +31,7 @@ class BalanceDerivatives {
                      const OperatingCondition& at, double balance_angle);
 
   /// By soil_parameters[parameter]; `sd`, its standard deviation, sets the step [SI]. Not finite where there is none.
+  /// By n: with the pressure at the soil's reference sinkage held.
   Channels by(std::size_t parameter, double sd) const;
   /// By the carcass pressure of the tire, with its standard deviation [Pa].
   Channels by_carcass_pressure(double sd) const;

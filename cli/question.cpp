@@ -248,6 +248,10 @@ void SoilFlags::apply(Soil& soil) const {
       if (p.value != &SemiEmpiricalSoil::exponent || values.exponent.value != before)  // a doubt asks whether n changed
         values.sources[p.name] = command_line_source;
     }
+  if (!texts_.at("reference_sinkage").empty() && !(values.exponent.std_error > 0.0))
+    throw InputError(
+        "--reference-sinkage says about which sinkage n errs, and n has no standard deviation\n"
+        "  hint: such as --exponent 1.1+-0.1");
   if (soil.granular) soil.granular->gravity = values.gravity;
   if (changed) soil.name += ", changed";
 }

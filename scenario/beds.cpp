@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "scenario/description.hpp"
@@ -67,6 +68,30 @@ std::vector<Estimate> values_of(std::span<const SemiEmpiricalSoil> beds, const S
   std::vector<Estimate> values;
   for (const SemiEmpiricalSoil& bed : beds) values.push_back(bed.*p.value);
   return values;
+}
+
+/// The sinkage at which n and the pressure of a bed between others err apart, as they do at theirs [m]: ln z_0 is the
+/// mean of theirs, each weighted by what it gives the variance of n. None where no bed declares one.
+std::optional<double> reference_between(std::span<const SemiEmpiricalSoil> beds, const std::vector<double>& places,
+                                        double place) {
+  if (std::ranges::none_of(beds, [](const SemiEmpiricalSoil& bed) { return bed.reference_sinkage.has_value(); }))
+    return std::nullopt;
+  if (place <= places.front()) return beds.front().reference_sinkage;
+  if (place >= places.back()) return beds.back().reference_sinkage;
+  const auto above = static_cast<std::size_t>(std::ranges::upper_bound(places, place) - places.begin());
+  const std::size_t below = above - 1;
+  const double w = (place - places[below]) / (places[above] - places[below]);
+  const double a = square((1 - w) * beds[below].exponent.std_error), b = square(w * beds[above].exponent.std_error);
+  const double share = a + b > 0.0 ? b / (a + b) : w;
+  return std::exp((1 - share) * std::log(beds[below].reference_sinkage.value_or(1.0)) +
+                  share * std::log(beds[above].reference_sinkage.value_or(1.0)));
+}
+
+/// k_phi z_0^n of a bed [N/m^2], with its error: that of k_phi, and of n where the bed's own reference is another one.
+Estimate pressure_at(const SemiEmpiricalSoil& bed, double sinkage) {
+  const double pressure = bed.k_phi.value * std::pow(sinkage, bed.exponent.value);
+  const double by_n = std::log(sinkage / bed.reference_sinkage.value_or(1.0)) * bed.exponent.std_error;
+  return {pressure, pressure * std::hypot(bed.k_phi.std_error / bed.k_phi.value, by_n)};
 }
 
 std::string in_kg_per_m3(double density) { return fmt::format("{:.6g} kg/m^3", density); }
@@ -134,9 +159,19 @@ SemiEmpiricalSoil bed_at(std::span<const SemiEmpiricalSoil> beds, double density
     at.*p.value = interpolated(places, values, place, scale_of(p));
     if (!are_one(values)) at.sources[p.name] = source;
   };
-  const SoilParameter& k_c = soil_parameter("k_c");
-  for (const SoilParameter& p : soil_parameters)
-    if (p.value != k_c.value) interpolate(p, values_of(beds, p));
+  const SoilParameter &k_c = soil_parameter("k_c"), &k_phi = soil_parameter("k_phi");
+  at.reference_sinkage = reference_between(beds, places, place);
+  for (const SoilParameter& p : soil_parameters) {
+    if (p.value == k_c.value) continue;
+    std::vector<Estimate> values = values_of(beds, p);
+    const bool by_pressure = p.value == k_phi.value && at.reference_sinkage && !are_one(values);
+    if (by_pressure)
+      for (std::size_t i = 0; i < beds.size(); ++i) values[i] = pressure_at(beds[i], *at.reference_sinkage);
+    interpolate(p, values);
+    if (!by_pressure) continue;
+    const double per_modulus = std::pow(*at.reference_sinkage, at.exponent.value);
+    at.k_phi = {at.k_phi.value / per_modulus, at.k_phi.std_error / per_modulus};
+  }
   std::vector<Estimate> shares = values_of(beds, k_c);
   if (are_one(shares)) return at;
   for (std::size_t i = 0; i < beds.size(); ++i)

@@ -14,6 +14,10 @@
 // bridge); its best predictor is the straight line. It is 0 at the beds. Beyond the beds the value of the nearest one
 // holds, and its variance grows by r |x - x_a|, as far again as the beds reach; there is no value farther out. A value
 // that all beds share, its standard deviation included, is one measurement and changes in nothing.
+//
+// Beds with a reference sinkage z_i, at which n and k_phi z_i^n err apart: k_phi z_0^n is interpolated in place of
+// k_phi, in its logarithm, and z_0 is declared of the bed between them. ln z_0 = sum w_i^2 s_i^2 ln z_i/sum w_i^2
+// s_i^2, with s_i the errors of n and w_i the weights above: there the errors of n add nothing to that of the pressure.
 #pragma once
 
 #include <span>

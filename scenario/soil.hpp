@@ -33,6 +33,10 @@ struct SemiEmpiricalSoil {
   Estimate stress_angle_c2;         ///< c2 [-]
   std::optional<double> density;    ///< bulk density [kg/m^3]; absent: bulk_density() presumes one
   std::optional<double> gravity{};  ///< that pulls on it [m/s^2]; absent: Earth's
+  /// Sinkage about which n was fitted [m]: an error of n leaves the pressure there as it is, and k_c and k_phi follow
+  /// it (move_value in soil_parameters.hpp); their own errors are those at the declared n. Absent: 1 m, so that n, k_c
+  /// and k_phi err apart.
+  std::optional<double> reference_sinkage{};
   /// For a source that gives no standard deviations: the share of each value but n that its file assumes
   /// in their place, >= 0. (k_c and k_phi belong to one n: at this n their shares stand for the stiffness.)
   std::optional<double> assumed_sd{};

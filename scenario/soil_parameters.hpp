@@ -1,4 +1,4 @@
-// The eight parameters of a semi-empirical soil as one table: names, symbols, units, ranges and meanings; and its two
+// The eight parameters of a semi-empirical soil as one table: names, symbols, units, ranges and meanings; and its
 // values without an error. Reader, writer, schema, flags, fits, error propagation, tables and pages all go over them.
 //
 //   for (const SoilParameter& p : soil_parameters)
@@ -67,9 +67,11 @@ struct ExactSoilValue {
 
 inline constexpr const char* gravity_meaning = "that pulls on soil and wheel; absent: Earth's";
 
-inline constexpr std::array<ExactSoilValue, 2> exact_soil_values = {{
+inline constexpr std::array<ExactSoilValue, 3> exact_soil_values = {{
     {"density", "kg/m^3", "bulk density", "1600kg/m^3", &SemiEmpiricalSoil::density},
     {"gravity", "m/s^2", gravity_meaning, "1.62m/s^2", &SemiEmpiricalSoil::gravity},
+    {"reference_sinkage", "m", "sinkage whose pressure an error of n leaves as it is; absent: 1 m", "50mm",
+     &SemiEmpiricalSoil::reference_sinkage},
 }};
 
 /// n, k_c, k_phi, c, phi and K: what plates and sheared rings measure.
@@ -80,6 +82,22 @@ constexpr const SoilParameter& soil_parameter(std::string_view name) {
   for (const SoilParameter& parameter : soil_parameters)
     if (parameter.name == name) return parameter;
   throw std::out_of_range("a soil parameter of no such name: " + std::string(name));
+}
+
+/// By what k_c and k_phi change where n moves from one value to another and the pressure at the soil's reference
+/// sinkage z_0 stays, k z_0^n = constant [-]. 1 for a soil that declares none.
+inline double modulus_factor(const SemiEmpiricalSoil& soil, double from, double to) {
+  return soil.reference_sinkage ? std::pow(*soil.reference_sinkage, from - to) : 1.0;
+}
+
+/// Moves a value as its error does: k_c and k_phi follow n, and are themselves moved as they are at the declared n.
+inline void move_value(SemiEmpiricalSoil& soil, const SoilParameter& p, double to, double declared_exponent) {
+  using S = SemiEmpiricalSoil;
+  const double n = soil.exponent.value;
+  const bool is_modulus = p.value == &S::k_c || p.value == &S::k_phi;
+  (soil.*p.value).value = is_modulus ? to * modulus_factor(soil, declared_exponent, n) : to;
+  if (p.value != &S::exponent) return;
+  soil.k_c.value *= modulus_factor(soil, n, to), soil.k_phi.value *= modulus_factor(soil, n, to);
 }
 
 /// Whether this value's standard deviation is the share that its soil assumes, and no measured one.

@@ -7,8 +7,7 @@ First table: some tests of a bed are fitted, one more test of each plate is held
 (k where one size of plate was pressed, both at the n of the fitted tests) it prints the root mean square of how far the
 others are off, that of the errors `between tests` that were told, and the ratio of the two: 1 is right, above 1 the
 errors are too small. Second table: Cullinan sand; each density is left out and asked of the other two (`plates --by
---density`), as a soil file of these two beds would give it, with n and k erring independently; and each re-test from the
-rest of its bed.
+--density`), as a soil file of these two beds would give it; and each re-test from the rest of its bed.
 """
 import csv
 import itertools
@@ -128,14 +127,10 @@ def retests(soilbin):
             print(f"{name:20} {label:22} {ratios[0]:>5} {ratios[1]:>6} {ratios[2]:>6}", flush=True)
 
 
-def state(soilbin, tests):
-    """n, P at z = b and how ln P errs by re-tests."""
-    answer, _ = fit(soilbin, tests)
-    n, _, k = values(answer)
-    b = answer["plates"][0]["radius"]
-    return {"n": n["value"], "n_sd": math.hypot(n["between_tests"], n["between_readings"]),
-            "n_bend": n["between_pressures"], "P": k["value"] * b ** n["value"], "b": b,
-            "P_sd": math.hypot(k["between_tests"], k["between_readings"]) / k["value"]}
+def told(n, k, reference):
+    """Pressure at a sinkage [m]: p [Pa] and the standard deviation of ln p, by values as a soil file has them."""
+    return lambda z: (k["value"] * z ** n["value"],
+                      math.hypot(k["std_error"] / k["value"], math.log(z / reference) * n["std_error"]))
 
 
 def held(name, sinks, tests, depths=(5, 10, 20, 40, 79)):
@@ -148,15 +143,6 @@ def held(name, sinks, tests, depths=(5, 10, 20, 40, 79)):
         cells.append(f"{measured / 1e3:.0f} | {predicted / 1e3:.0f} ± {100 * sd:.0f} % "
                      f"({math.log(measured / predicted) / sd:+.1f})")
     print(f"| {name} | " + " | ".join(cells) + " |", flush=True)
-
-
-def by_state(known):
-    """Pressure by n and P at z = b, which err independently."""
-    def sinks(z):
-        ratio = math.log(z / known["b"])
-        return known["P"] * math.exp(known["n"] * ratio), math.hypot(known["P_sd"],
-                                                                     ratio * math.hypot(known["n_sd"], known["n_bend"]))
-    return sinks
 
 
 def by_beds(soilbin, beds, density):
@@ -175,8 +161,7 @@ def by_beds(soilbin, beds, density):
     if "out of reach" in answer.stderr:
         return None
     at = json.loads(answer.stdout)["at_density"]
-    n, k = at["exponent"], at["modulus"]
-    return lambda z: (k["value"] * z ** n["value"], math.hypot(k["std_error"] / k["value"], math.log(z) * n["std_error"]))
+    return told(at["exponent"], at["modulus"], at["reference_sinkage"])
 
 
 def left_out(soilbin):
@@ -191,8 +176,9 @@ def left_out(soilbin):
     for name in ("1-loosest", "2-little"):
         tests = cullinan(name)
         for key in tests:
-            rest = state(soilbin, {other: tests[other] for other in tests if other != key})
-            held(f"{name}, test {key[0]} from its bed's others", by_state(rest), {key: tests[key]})
+            rest, _ = fit(soilbin, {other: tests[other] for other in tests if other != key})
+            held(f"{name}, test {key[0]} from its bed's others",
+                 told(rest["exponent"], rest["modulus"], rest["reference_sinkage"]), {key: tests[key]})
 
 
 if __name__ == "__main__":

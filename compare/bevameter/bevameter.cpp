@@ -77,6 +77,18 @@ JanosiFit fit_janosi(const ShearCurve& curve) {
   return at_modulus(curve, std::exp((low + high) / 2));
 }
 
+namespace {
+
+/// Geometric mean over the plates of the sinkage at which a curve's pressure tells nothing of its n [m].
+double reference_of_sets(std::span<const PlateSet> plates) {
+  double sum = 0.0, count = 0.0;
+  for (const PlateSet& set : plates)
+    for (const bekker_wong::PlateCurve& curve : set) sum += bekker_wong::sums_of(curve).ln_z, count += 1.0;
+  return std::exp(sum / count);
+}
+
+}  // namespace
+
 BevameterFit fit_bevameter(std::span<const PlateSet> plates, std::span<const ShearCurve> shear) {
   if (plates.empty() || shear.empty()) throw InputError("a bevameter needs plates and shear tests");
   BevameterFit fit;
@@ -84,6 +96,7 @@ BevameterFit fit_bevameter(std::span<const PlateSet> plates, std::span<const She
   for (const PlateSet& set : plates)
     n.push_back(bekker_wong::fit_plates(set, bekker_wong::PlateExponent::common).exponent);
   fit.soil.exponent = mean_of(n);
+  fit.soil.reference_sinkage = reference_of_sets(plates);
   // k_c and k_phi mean something at one exponent only: all sets at the mean one.
   for (const PlateSet& set : plates) {
     const bekker_wong::PlateFit at = bekker_wong::fit_plates_at(set, fit.soil.exponent.value);
@@ -115,6 +128,7 @@ Soil with_bevameter(Soil soil, const BevameterFit& fit, double density, const st
   }
   for (const SoilParameter& p : bevameter_parameters) out.*p.value = fit.soil.*p.value, out.sources[p.name] = source;
   out.density = density, out.sources["density"] = source;
+  out.reference_sinkage = fit.soil.reference_sinkage;
   check_numbers(out);
   if (fit.cohesion_as_fitted < 0) out.sources["cohesion"] += "; fitted below 0, taken as 0";
   soil.semi_empirical = out;

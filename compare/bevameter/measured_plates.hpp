@@ -54,6 +54,7 @@ struct PlateTestApart {
 
 struct MeasuredPlatesFit {
   PlateValue exponent, k_c, k_phi;  ///< [-], [N/m^(n+1)], [N/m^(n+2)]; errors of the k at this n
+  double reference_sinkage = 0.0;   ///< where an error of n leaves the pressure as it is, k following n [m]
   double pressure_error = 0.0;      ///< root mean square of what Bekker's form misses, over the mean pressure
   /// xi_n [N/m^3] of resistive force theory, whose plate bears plate_response() xi_n z whatever its size: mean over the
   /// tests of the one that each is fitted best by, in least squares; and what it misses, as pressure_error.

@@ -62,6 +62,7 @@ std::vector<SemiEmpiricalSoil> beds_of(const std::vector<PlateGroup>& groups) {
     if (!soil_parameter("exponent").range.holds(fit.exponent.estimate.value)) return {};
     SemiEmpiricalSoil& bed = beds.emplace_back();
     bed.exponent = fit.exponent.estimate, bed.k_phi = fit.k_phi.estimate, bed.density = group.density;
+    bed.reference_sinkage = fit.reference_sinkage;
     if (!fit.one_size()) bed.k_c = fit.k_c.estimate;
   }
   std::ranges::sort(beds, {}, [](const SemiEmpiricalSoil& bed) { return *bed.density; });

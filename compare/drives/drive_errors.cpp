@@ -48,9 +48,10 @@ void add_soil_values(const Soil& soil, bool of_case, std::vector<Uncertain>& val
     const auto [below, above] = neighbours(of.value, of.std_error, p.range);
     values.push_back({{soil.name, p.name, p.title, p.unit, p.per_si, of, {below}, {above}},
                       of_case,
-                      [soil, member = p.value](Case& asked, double value) {
+                      [soil, &p](Case& asked, double value) {
                         for (Soil* one : soils_of_way(asked))
-                          if (is_same_soil(*one, soil)) ((*one->semi_empirical).*member).value = value;
+                          if (is_same_soil(*one, soil))
+                            move_value(*one->semi_empirical, p, value, soil.semi_empirical->exponent.value);
                       }});
   }
 }

@@ -75,6 +75,8 @@ SemiEmpiricalSoil FittedModel::soil() const {
   for (int i = 0; i < predictor_.soil_parameters(); ++i)
     if (const std::string& name = predictor_.parameters()[i].name; name != carcass_pressure_key)
       soil.*soil_parameter(name).value = {fit_.theta[i], errors[i]};
+  const double follows = modulus_factor(soil, data_->campaign->soil.exponent.value, soil.exponent.value);
+  for (Estimate* modulus : {&soil.k_c, &soil.k_phi}) modulus->value *= follows, modulus->std_error *= follows;
   return soil;
 }
 

@@ -201,6 +201,8 @@ std::vector<Wall> WheelPredictor::walls() const {
 SoilValues WheelPredictor::soil(const Eigen::VectorXd& theta) const {
   SoilValues values = bekker_wong::values_of(campaign_->soil);
   for (std::size_t i = 0; i < soil_members_.size(); ++i) values.*soil_members_[i] = theta[i];
+  const double follows = modulus_factor(campaign_->soil, campaign_->soil.exponent.value, values.exponent);
+  values.k_c *= follows, values.k_phi *= follows;
   return values;
 }
 

@@ -95,6 +95,10 @@ std::string yaml_line(const SoilParameter& p, const Estimate& value, const std::
                      yaml_scalar(source));
 }
 
+std::string reference_line(double sinkage, int indent = 2) {
+  return fmt::format("{:{}}reference_sinkage: {:.3g} mm\n", "", indent, 1e3 * sinkage);
+}
+
 /// The lines that a campaign or a soil file takes.
 std::string yaml_lines(const MeasuredPlatesFit& fit, const std::string& source) {
   const SoilParameter& exponent = soil_parameter("exponent");
@@ -106,7 +110,7 @@ std::string yaml_lines(const MeasuredPlatesFit& fit, const std::string& source) 
     const bool presumed = fit.one_size() && std::string_view(p.name) == "k_c";
     text += yaml_line(p, value.estimate, presumed ? source + "; presumed: one size of plate" : source);
   }
-  return text;
+  return text + reference_line(fit.reference_sinkage);
 }
 
 /// The section of a soil file that the model rft reads.
@@ -195,6 +199,7 @@ Json plates_json(const MeasuredPlatesFit& fit, std::size_t tests) {
     document[p.name]["between_pressures"] = value.between_pressures;
     document[p.name]["between_readings"] = value.between_readings;
   }
+  document["reference_sinkage"] = fit.reference_sinkage;
   document["pressure_error"] = fit.pressure_error;
   document["xi_n"] = estimate_json(fit.xi_n.estimate);
   document["xi_n"]["between_tests"] = fit.xi_n.between_tests;
@@ -273,7 +278,8 @@ std::vector<std::string> words_on_errors(const MeasuredPlatesFit& fit) {
                         "for a wheel or plate of about this b.",
                         1000 * fit.radii.front())
           : std::string("The errors of k_c and k_phi are at this n."),
-      "A file takes the values as independent, which makes pressures less sure than these tests are.",
+      fmt::format("An error of n leaves the pressure at {} mm as it is, and k follows: a file's reference_sinkage.",
+                  number(1e3 * fit.reference_sinkage, 3)),
       fmt::format("xi_n is the model rft's: the pressure under any plate is {:.3f} xi_n z. RMS error of the pressures: "
                   "{} by xi_n, "
                   "{} by Bekker's form (of the mean pressure).",
@@ -379,18 +385,19 @@ Json groups_json(const PlateGroups& groups) {
     document["at_density"] = {{"dry_density", *at->density},
                               {"exponent", estimate_json(at->exponent)},
                               {"modulus", estimate_json(at->k_phi)},
-                              {"k_c", estimate_json(at->k_c)}};
+                              {"k_c", estimate_json(at->k_c)},
+                              {"reference_sinkage", at->reference_sinkage.value_or(1.0)}};
   return document;
 }
 
-/// n, k_c and k_phi of a bed, as a soil file has them.
+/// n, k_c, k_phi and the reference sinkage of a bed, as a soil file has them.
 std::string lines_of(const SemiEmpiricalSoil& bed, bool one_size, const std::string& source, int indent) {
   std::string text;
   for (const SoilParameter& p : bevameter_parameters.first<3>()) {
     const bool presumed = one_size && std::string_view(p.name) == "k_c";
     text += yaml_line(p, bed.*p.value, presumed ? source + "; presumed: one size of plate" : source, indent);
   }
-  return text;
+  return text + reference_line(bed.reference_sinkage.value_or(1.0), indent);
 }
 
 /// The bed that was asked for; else all of them, for a soil's section 'beds'.

@@ -13,9 +13,10 @@ std::vector<DoubtfulNumber> doubtful_numbers(const std::vector<VehicleWheel>& wh
   const SemiEmpiricalSoil& soil = *wheels.front().scenario.soil.semi_empirical;
   for (const SoilParameter& p : soil_parameters)
     if (const Estimate& value = soil.*p.value; value.std_error > 0.0)
-      all.push_back({value.value, value.std_error, p.range, [member = p.value](Scenario& scenario, double x) {
-                       ((*scenario.soil.semi_empirical).*member).value = x;
-                     }});
+      all.push_back(
+          {value.value, value.std_error, p.range, [&p, n = soil.exponent.value](Scenario& scenario, double x) {
+             move_value(*scenario.soil.semi_empirical, p, x, n);
+           }});
   std::vector<std::string> tires;
   for (const VehicleWheel& wheel : wheels) {
     const Tire& tire = wheel.scenario.tire;

@@ -296,6 +296,26 @@ TEST(StandardErrors, OfAFitCancelWhereTheirParametersDo) {
   EXPECT_NEAR(alike.sinkage.std_error, std::sqrt(2.0) * apart.sinkage.std_error, 1e-6 * alike.sinkage.std_error);
 }
 
+// With k = P/z_0^n, n and P independent: what a fit with these covariances says, and far less than n and k apart.
+TEST(StandardErrors, OfAnExponentLeaveThePressureAtItsReference) {
+  Scenario scenario = sand_scenario();
+  SemiEmpiricalSoil& soil = soil_of(scenario);
+  soil.k_c.std_error = 0;
+  const TractionResult apart = BekkerWong().evaluate(scenario, bed::driven());
+  const double z_0 = 0.03, of_n = soil.exponent.std_error, by_n = -std::log(z_0);
+  soil.reference_sinkage = z_0;
+  const TractionResult about = BekkerWong().evaluate(scenario, bed::driven());
+  soil.reference_sinkage.reset();
+  const double own = soil.k_phi.std_error, c = soil.k_c.value * by_n * of_n, phi = soil.k_phi.value * by_n * of_n;
+  soil.k_c.std_error = c, soil.k_phi.std_error = std::hypot(own, phi);
+  const double share = phi / soil.k_phi.std_error;  // of k_phi's error that n makes
+  scenario.errors = {{"exponent", {}, {}}, {"k_c", {}, {1.0}}, {"k_phi", {}, {share, share}}};
+  const TractionResult fitted = BekkerWong().evaluate(scenario, bed::driven());
+  for (const auto value : {&TractionResult::drawbar_pull, &TractionResult::torque, &TractionResult::sinkage})
+    EXPECT_NEAR((about.*value).std_error, (fitted.*value).std_error, 1e-4 * (fitted.*value).std_error);
+  EXPECT_LT(about.sinkage.std_error, apart.sinkage.std_error);
+}
+
 TEST(StandardErrors, OfAFitHoldTheEffectsParametersToo) {
   Scenario scenario = sand_scenario();
   for (const SoilParameter& p : soil_parameters) (soil_of(scenario).*p.value).std_error = 0;

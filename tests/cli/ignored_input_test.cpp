@@ -57,6 +57,7 @@ const std::map<std::string, std::string>& samples() {
       {"--stress-angle-c2", "0.2"},
       {"--density", "1100kg/m^3"},
       {"--gravity", "3m/s^2"},
+      {"--reference-sinkage", "50mm"},
       {"--load", "75N"},
       {"--slip", "25%"},
       {"--speed", "0.5m/s"},

@@ -343,6 +343,23 @@ TEST(BaseFit, FindsTheCarcassPressure) {
   EXPECT_EQ(base.soil().exponent.value, base.fit().theta[0]);
 }
 
+// Where n is fitted about a reference sinkage, the pressure there is k's alone, and the fitted soil says what the wheel
+// was given.
+TEST(BaseFit, MovesAnExponentAboutItsReferenceSinkage) {
+  Campaign campaign = pneumatic_campaign({}, 5);
+  campaign.soil.reference_sinkage = 0.04;
+  const Observations runs = observe(campaign);
+  const WheelPredictor predictor(campaign, runs);
+  Eigen::VectorXd theta = predictor.start();
+  const auto pressure = [&] {
+    const bekker_wong::SoilValues soil = predictor.soil(theta);
+    return soil.pressure_modulus(0.1) * std::pow(0.04, soil.exponent);
+  };
+  const double declared = pressure();
+  theta[0] += 0.2;
+  EXPECT_NEAR(pressure(), declared, 1e-12 * declared);
+}
+
 // Nothing hears of a carcass without the effect; nor is it free where it counts as exact.
 TEST(BaseFit, LeavesTheCarcassPressureWhereNothingReadsIt) {
   Campaign campaign = pneumatic_campaign({}, 5);

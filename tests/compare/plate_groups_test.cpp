@@ -161,6 +161,7 @@ TEST(PlateGroups, TheLibrarysCullinanSandIsItsFits) {
     EXPECT_EQ(known[i].density, groups.beds[i].density);
     expect_in_file(known[i].exponent, groups.beds[i].exponent, "n");
     expect_in_file(known[i].k_phi, groups.beds[i].k_phi, "k");
+    EXPECT_NEAR(*known[i].reference_sinkage, *groups.beds[i].reference_sinkage, 1e-4);
     expect_in_file(known[i].friction_angle, sheared.friction_angle, "phi");
     expect_in_file(known[i].shear_modulus, sheared.shear_modulus, "K");
   }

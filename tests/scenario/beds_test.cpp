@@ -112,6 +112,45 @@ TEST(Beds, BeyondThemErrorsGrowAndValuesEnd) {
               "1225 to 1829 kg/m^3");
 }
 
+// n and k z_i^n err apart at 50 and at 80 mm; between the beds they do so at the geometric mean, where half of each
+// bed's error of the pressure stands, and what its own reference lies off times its error of n.
+TEST(Beds, AnExponentKeepsItsReferenceSinkage) {
+  std::vector<SemiEmpiricalSoil> beds(3, three_beds().front());
+  const double references[] = {0.05, 0.08, 0.08};
+  for (std::size_t i = 0; i < 3; ++i) {
+    beds[i].density = 1400.0 + 100.0 * static_cast<double>(i), beds[i].reference_sinkage = references[i];
+    beds[i].k_phi.std_error *= 1.0 + 1e-12 * static_cast<double>(i);  // three measurements
+    beds[i].exponent.std_error *= 1.0 + 1e-12 * static_cast<double>(i);
+  }
+  const SemiEmpiricalSoil at = bed_at(beds, std::sqrt(1400.0 * 1500));
+  ASSERT_TRUE(at.reference_sinkage);
+  EXPECT_NEAR(*at.reference_sinkage, std::sqrt(0.05 * 0.08), 1e-9);
+  EXPECT_NEAR(at.k_phi.value, 1e6, 1e-3);
+  const double off = std::log(0.08 / 0.05) / 2 * 0.1;
+  EXPECT_NEAR(at.k_phi.std_error / at.k_phi.value, std::hypot(0.1, off) / std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(at.exponent.std_error, 0.1 / std::sqrt(2.0), 1e-9);
+  EXPECT_EQ(bed_at(beds, 1650).reference_sinkage, 0.08);
+}
+
+TEST(Beds, ValuesMoveAsTheirErrorsDo) {
+  SemiEmpiricalSoil soil = three_beds().front();
+  const SemiEmpiricalSoil declared = soil;
+  soil.reference_sinkage = 0.05;
+  const auto pressure = [](const SemiEmpiricalSoil& of, double z) {
+    return (of.k_c.value / 0.1 + of.k_phi.value) * std::pow(z, of.exponent.value);
+  };
+  move_value(soil, soil_parameter("exponent"), 1.2, 0.9);
+  EXPECT_EQ(soil.exponent.value, 1.2);
+  EXPECT_NEAR(pressure(soil, 0.05), pressure(declared, 0.05), 1e-9 * pressure(declared, 0.05));
+  move_value(soil, soil_parameter("k_phi"), 2 * declared.k_phi.value, 0.9);
+  move_value(soil, soil_parameter("k_c"), 2 * declared.k_c.value, 0.9);
+  EXPECT_NEAR(pressure(soil, 0.05), 2 * pressure(declared, 0.05), 1e-9 * pressure(declared, 0.05))
+      << "moved in any order";
+  SemiEmpiricalSoil plain = declared;
+  move_value(plain, soil_parameter("exponent"), 1.2, 0.9);
+  EXPECT_EQ(plain.k_phi.value, declared.k_phi.value) << "without a reference each value moves alone";
+}
+
 const std::string file_of_beds = R"(format: soilbin-soil/1
 name: sand
 density: 1500 kg/m^3

@@ -37,7 +37,7 @@ TEST(SoilParameters, AreTheKeysOfASoil) {
   std::vector<std::string> names;
   for (const SoilParameter& p : soil_parameters) names.emplace_back(p.name);
   names.insert(names.begin() + 1, "assumed_sd");
-  for (const char* exact : {"density", "gravity"}) names.emplace_back(exact);
+  for (const ExactSoilValue& exact : exact_soil_values) names.emplace_back(exact.name);
   EXPECT_EQ(keys_of<SemiEmpiricalSoil>(), names);
   EXPECT_EQ(&soil_parameter("k_phi"), &soil_parameters[2]);
   EXPECT_THROW(soil_parameter("k"), std::out_of_range);
