@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <memory>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
@@ -10,8 +11,9 @@
 #include "cli/question.hpp"
 #include "compare/doubts/declared_doubts.hpp"
 #include "compare/experiments/force_table_file.hpp"
-#include "compare/export/wheel_slip.hpp"
+#include "compare/export/slip_map.hpp"
 #include "compare/report/json_fields.hpp"
+#include "compare/telling/export_reports.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
@@ -89,17 +91,47 @@ void add_scm(CLI::App& app, Session& session) {
 struct GazeboOptions {
   OutputFlags outputs;
   TireFlags tire;
+  std::string map, map_size;
+  std::vector<std::string> map_soils;
+  bool wants_map() const { return !map.empty() || !map_soils.empty(); }
 };
+
+/// The wheel on each soil of the map, the question's own first.
+std::vector<compare::WheelSlipFit> mapped_fits(const compare::WheelSlipFit& first, const GazeboOptions& options,
+                                               const Library& library) {
+  std::vector<compare::WheelSlipFit> fits = {first};
+  for (const std::string& name : options.map_soils) {
+    Case question = first.question;
+    question.scenario.soil = find_soil(name, library);
+    require_semi_empirical(question, library);
+    try {
+      fits.push_back(compare::wheel_slip_of(std::move(question)));
+    } catch (const NoSolution& none) {
+      throw NoSolution(fmt::format("--map-soil {}: {}", clipped(name), none.what()));
+    }
+  }
+  return fits;
+}
 
 int export_gazebo(const Question& inputs, const GazeboOptions& options, const Session& session) {
   Case question = inputs.ask(session.place);
   require_semi_empirical(question, session.place.library);
   compare::Doubts notes = options.tire.apply(question, inputs.switches_effects_off());
+  if (!options.map_size.empty() && !options.wants_map())
+    throw InputError("--map-size means nothing without a map\n  hint: --map FILE.png");
+  compare::SlipMapSize size;
+  set_where_given("--map-size", options.map_size, {"m", above_zero}, size.size);
   const compare::WheelSlipFit fit = compare::wheel_slip_of(std::move(question));
-  compare::Report report = compare::report_on(fit);
+  compare::SlipMap map;
+  if (options.wants_map()) map = slip_map(mapped_fits(fit, options, session.place.library), size);
+  compare::Report report = options.wants_map()
+                               ? compare::report_on(fit, map, options.map.empty() ? "slip_map.png" : options.map)
+                               : compare::report_on(fit);
   report.resolved_case = write_case(fit.question, session.place.effects);
-  return publish(report, options.outputs, joined_doubts(std::move(notes), fit.question, fit.answers), session)
-      .status(done);
+  Outputs outputs =
+      publish(report, options.outputs, joined_doubts(std::move(notes), fit.question, fit.answers), session);
+  outputs.file(options.map, [&] { return compare::rgb_png(compare::picture_of(map)); });
+  return outputs.status(done);
 }
 
 void add_gazebo(CLI::App& app, Session& session) {
@@ -108,10 +140,19 @@ void add_gazebo(CLI::App& app, Session& session) {
   const auto inputs = std::make_shared<Question>(*command);
   const auto options = std::make_shared<GazeboOptions>();
   options->tire.add_to(*command);
+  const char* map_group = "Map of soils, for the plugin LookupWheelSlip";
+  add_file(*command, "--map", options->map, "FILE.png", "save the map: the soil, then each --map-soil, in stripes")
+      ->group(map_group);
+  add_value(*command, "--map-soil", options->map_soils, "SOIL", "another soil of the map; repeatable")
+      ->allow_extra_args(false)
+      ->group(map_group);
+  add_value(*command, "--map-size", options->map_size, "LENGTH", "side of the map's square on the ground; 10 m")
+      ->group(map_group);
   options->outputs.add_to(*command, {.json = "soilbin-wheel-slip/1, in SI"});
   command->footer(
       "The longitudinal line is fitted at slips up to 60 %, the lateral one at the slip that is given.\n"
-      "Example: soilbin export gazebo --soil dry-sand --tire rover-wheel --load 65N --slip 20%");
+      "Example: soilbin export gazebo --soil dry-sand --tire rover-wheel --load 65N --slip 20%\n"
+      "         --map map.png --map-soil lunar-regolith");
   command->callback(
       [=, &session] { session.action = [=, &session] { return export_gazebo(*inputs, *options, session); }; });
 }

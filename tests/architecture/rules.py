@@ -46,7 +46,7 @@ LIBRARIES = {
     "omp.h": ["dem/", "compare/"],
     "mpi.h": ["dem/worker_lammps/", "tests/dem/lammps/"],
     "lammps/": ["dem/worker_lammps/lammps.cpp"],  # the wrapper
-    "zlib": ["compare/replay/", "tests/"],
+    "zlib": ["compare/replay/", "compare/export/packed_files.cpp", "tests/"],
     "pybind11/": ["notebooks/"],
 }
 

@@ -246,5 +246,18 @@ TEST(ExportGazebo, GivesThePluginsNumbers) {
   EXPECT_EQ(soilbin("export gazebo" + rover_on_sand + " --load 65N --slip 20% --yaw 4deg").status, 2);
 }
 
+TEST(ExportGazebo, WritesAMapOfSoils) {
+  const Scratch scratch;
+  const std::string asked = "export gazebo" + rover_on_sand + " --load 65N --slip 20%";
+  const Outcome run = soilbin(asked + " --map '" + (scratch / "map.png").string() +
+                              "' --map-soil lunar-regolith --map-soil cmu-sand --map-size 20m");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("lunar-regolith"), HasSubstr("<size_x>20</size_x>")));
+  EXPECT_THAT(text_of(scratch / "map.png"), testing::StartsWith("\x89PNG"));
+  EXPECT_THAT(soilbin(asked + " --map-soil lunar-regolit").err, HasSubstr("did you mean 'lunar-regolith'?"));
+  EXPECT_THAT(soilbin(asked + " --map-size 20m").err, HasSubstr("hint: --map FILE.png"));
+  EXPECT_THAT(soilbin(asked + " --map-soil snow-sweden").err, HasSubstr("--map-soil snow-sweden: no solution"));
+}
+
 }  // namespace
 }  // namespace soilbin::cli::test

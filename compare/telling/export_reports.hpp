@@ -1,0 +1,17 @@
+// What is said of a wheel for another program beyond its numbers: several soils as one map for Gazebo.
+#pragma once
+
+#include <string>
+
+#include "compare/report/report.hpp"
+
+namespace soilbin::compare {
+
+struct SlipMap;
+struct WheelSlipFit;
+
+/// A wheel for Gazebo, and its map of soils: each one's colour, what the plugins have there, what the map can't say;
+/// soilbin-wheel-slip/1 with the key `map`. `file`: of the map, for the SDF.
+Report report_on(const WheelSlipFit& fit, const SlipMap& map, const std::string& file);
+
+}  // namespace soilbin::compare
