@@ -12,6 +12,7 @@
 #include "compare/doubts/declared_doubts.hpp"
 #include "compare/experiments/force_table_file.hpp"
 #include "compare/export/slip_map.hpp"
+#include "compare/export/wheel_fmu.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/telling/export_reports.hpp"
 #include "compare/telling/reports.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 struct TableOptions {
   OutputFlags outputs;
-  std::string hdf5, header, model;
+  std::string hdf5, header, fmu, model;
   TireFlags tire;
 };
 
@@ -37,23 +38,47 @@ void choose_model(Case& question, const TableOptions& options, bool names_effect
   compare::keep_models(question.study, kind);
 }
 
-int export_table(const Question& inputs, const TableOptions& options, bool names_effects, const Session& session) {
+/// The table that is asked for, and what to tell of the question.
+struct AskedTable {
+  compare::ForceTable table;
+  compare::Doubts doubts;
+};
+
+AskedTable ask_table(const Question& inputs, const TableOptions& options, bool names_effects, const Session& session) {
   Case question = inputs.ask(session.place);
   choose_model(question, options, names_effects);
   require_semi_empirical(question, session.place.library);
   compare::Doubts notes = options.tire.apply(question, inputs.switches_effects_off());
-  const compare::ForceTable table = compare::force_table(std::move(question), shown_progress());
+  AskedTable asked{compare::force_table(std::move(question), shown_progress()), {}};
+  asked.doubts = joined_doubts(std::move(notes), asked.table.question, {asked.table.nodes});
+  return asked;
+}
+
+int export_table(const Question& inputs, const TableOptions& options, bool names_effects, const Session& session) {
+  const auto [table, doubts] = ask_table(inputs, options, names_effects, session);
   compare::Report report = compare::report_on(table);
   report.resolved_case = write_case(table.question, session.place.effects);
-  Outputs outputs =
-      publish(report, options.outputs, joined_doubts(std::move(notes), table.question, {table.nodes}), session);
-  outputs.file(options.hdf5, [&] {
-    return compare::hdf5_of(table,
+  Outputs outputs = publish(report, options.outputs, doubts, session);
+  outputs.file(options.hdf5, [&, &made = table] {
+    return compare::hdf5_of(made,
                             {.name = options.hdf5, .version = SOILBIN_VERSION, .resolved_case = report.resolved_case});
   });
-  outputs.file(options.header, [&] {
-    return compare::c_header_of(table, {.name = compare::c_name_of(options.header), .version = SOILBIN_VERSION});
+  outputs.file(options.header, [&, &made = table] {
+    return compare::c_header_of(made, {.name = compare::c_name_of(options.header), .version = SOILBIN_VERSION});
   });
+  return outputs.status(done);
+}
+
+int export_fmi(const Question& inputs, const TableOptions& options, bool names_effects, const Session& session) {
+  AskedTable asked = ask_table(inputs, options, names_effects, session);
+  const std::string name = compare::c_name_of(options.fmu.empty() ? "wheel.fmu" : options.fmu);
+  const compare::WheelFmu fmu = compare::wheel_fmu(std::move(asked.table), {.name = name, .version = SOILBIN_VERSION});
+  const compare::CompiledC compiled = compare::compiled_by_cc(compare::files_in_c(fmu), name + ".c");
+  if (interrupt_asked()) throw Interrupted();
+  compare::Report report = compare::report_on(fmu, compiled);
+  report.resolved_case = write_case(fmu.table.question, session.place.effects);
+  Outputs outputs = publish(report, options.outputs, asked.doubts, session);
+  outputs.file(options.fmu, [&] { return compare::packed_fmu(fmu, compiled.library, report.resolved_case); });
   return outputs.status(done);
 }
 
@@ -157,14 +182,19 @@ void add_gazebo(CLI::App& app, Session& session) {
       [=, &session] { session.action = [=, &session] { return export_gazebo(*inputs, *options, session); }; });
 }
 
+/// The flags that the table and what is made of it have in common.
+void add_table_flags(CLI::App& command, TableOptions& options) {
+  add_value(command, "--model", options.model, "NAME", "only this model: bekker_wong, rft or cone_index")
+      ->group("Model");
+  options.tire.add_to(command);
+}
+
 void add_table(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand(
       "table", "forces on a grid of load, slip, yaw and slopes, with a measured error of the interpolation");
   const auto inputs = std::make_shared<Question>(*command);
   const auto options = std::make_shared<TableOptions>();
-  add_value(*command, "--model", options->model, "NAME", "only this model: bekker_wong, rft or cone_index")
-      ->group("Model");
-  options->tire.add_to(*command);
+  add_table_flags(*command, *options);
   add_file(*command, "--header", options->header, "FILE.h", "save one file of C with the table and its look-up");
   add_file(*command, "--hdf5", options->hdf5, "FILE.h5", "save the table as HDF5");
   options->outputs.add_to(*command, {.json = "soilbin-force-table/1, in SI", .csv = "save the table, a line a node"});
@@ -177,6 +207,23 @@ void add_table(CLI::App& app, Session& session) {
   });
 }
 
+void add_fmi(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand(
+      "fmi", "a driven wheel as a co-simulation unit of FMI 2.0: its equations of motion over a table of forces");
+  const auto inputs = std::make_shared<Question>(*command);
+  const auto options = std::make_shared<TableOptions>();
+  add_table_flags(*command, *options);
+  add_file(*command, "--output", options->fmu, "FILE.fmu", "save the unit, compiled where the machine has 'cc'");
+  options->outputs.add_to(*command, {.json = "soilbin-fmu/1, in SI", .csv = "save the table, a line a node"});
+  command->footer(
+      "The table runs over slip from 0 % on; each other condition with several values becomes an input of the unit.\n"
+      "Example: soilbin export fmi --soil dry-sand --tire rover-wheel --load 40N..120N:10N --slip 0%..80%:5%\n"
+      "         --output rover.fmu");
+  command->callback([=, &session] {
+    session.action = [=, &session] { return export_fmi(*inputs, *options, command->count("--effect") > 0, session); };
+  });
+}
+
 }  // namespace
 
 void add_export(CLI::App& app, Session& session) {
@@ -185,6 +232,7 @@ void add_export(CLI::App& app, Session& session) {
   add_table(*command, session);
   add_scm(*command, session);
   add_gazebo(*command, session);
+  add_fmi(*command, session);
 }
 
 }  // namespace soilbin::cli

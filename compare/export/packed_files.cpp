@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 #include <string_view>
@@ -35,7 +36,55 @@ std::string in_zlib(const std::string& plain) {
   return packed;
 }
 
+/// A number of `bytes` bytes, the lowest first.
+std::string little_endian(std::uint64_t value, int bytes) {
+  std::string text;
+  for (int i = 0; i < bytes; ++i) text += static_cast<char>((value >> (8 * i)) & 0xffU);
+  return text;
+}
+
+/// Without the header of zlib, as archives have it.
+std::string raw_deflated(const std::string& plain) {
+  z_stream stream{};
+  constexpr int no_header = -15, memory = 8;
+  if (::deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, no_header, memory, Z_DEFAULT_STRATEGY) != Z_OK)
+    throw std::runtime_error("zlib could not begin to compress a file");
+  std::string packed(::deflateBound(&stream, static_cast<uLong>(plain.size())), '\0');
+  stream.next_in = const_cast<Bytef*>(bytes_of(plain));  // zlib only reads it
+  stream.avail_in = static_cast<uInt>(plain.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  const int status = ::deflate(&stream, Z_FINISH);
+  packed.resize(stream.total_out);
+  ::deflateEnd(&stream);
+  if (status != Z_STREAM_END) throw std::runtime_error("zlib could not compress a file");
+  return packed;
+}
+
 }  // namespace
+
+std::string zip_of(const std::vector<PackedFile>& files) {
+  constexpr std::uint64_t needed = 20, by_unix = 3 << 8, deflated = 8, utf8 = 1 << 11, first_day = 0x21;
+  constexpr std::uint64_t plain_file = 0100644;  // to be read by everyone, as Unix tells it
+  std::string archive, directory;
+  for (const PackedFile& file : files) {
+    const std::string packed = raw_deflated(file.content);
+    if (std::max(file.content.size(), packed.size()) > 0xfffffffeU)
+      throw std::runtime_error(file.name + " is too large for an archive");
+    const std::string about = little_endian(utf8, 2) + little_endian(deflated, 2) + little_endian(0, 2) +
+                              little_endian(first_day, 2) + little_endian(crc_of(file.content), 4) +
+                              little_endian(packed.size(), 4) + little_endian(file.content.size(), 4) +
+                              little_endian(file.name.size(), 2) + little_endian(0, 2);
+    directory += "PK\x01\x02" + little_endian(by_unix | needed, 2) + little_endian(needed, 2) + about +
+                 little_endian(0, 6) + little_endian(plain_file << 16, 4) + little_endian(archive.size(), 4) +
+                 file.name;
+    archive += "PK\x03\x04" + little_endian(needed, 2) + about + file.name + packed;
+  }
+  const std::uint64_t begin = archive.size();
+  return archive + directory + "PK\x05\x06" + little_endian(0, 4) + little_endian(files.size(), 2) +
+         little_endian(files.size(), 2) + little_endian(directory.size(), 4) + little_endian(begin, 4) +
+         little_endian(0, 2);
+}
 
 std::string rgb_png(const RgbPicture& picture) {
   const auto width = static_cast<std::size_t>(picture.width), height = picture.rgb.size() / width;

@@ -259,5 +259,44 @@ TEST(ExportGazebo, WritesAMapOfSoils) {
   EXPECT_THAT(soilbin(asked + " --map-soil snow-sweden").err, HasSubstr("--map-soil snow-sweden: no solution"));
 }
 
+TEST(ExportFmi, WritesAUnitThatOthersUnpack) {
+  const Scratch scratch;
+  const std::string file = (scratch / "rover unit.fmu").string();
+  const Outcome run =
+      soilbin("export fmi" + rover_on_sand + " --load 50N,65N --slip 0%..60%:10% --output '" + file + "' --json");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto answer = run.json();
+  EXPECT_EQ(answer.at("format"), "soilbin-fmu/1");
+  EXPECT_EQ(answer.at("table").at("format"), "soilbin-force-table/1");
+  const std::string here = "cd '" + (scratch / "").string() + "' && ";
+  ASSERT_EQ(shell(here + "python3 -m zipfile -e 'rover unit.fmu' unit >listed"), 0) << "a ZIP that Python reads";
+  EXPECT_THAT(text_of(scratch / "unit/modelDescription.xml"), HasSubstr(answer.at("guid").get<std::string>()));
+  EXPECT_THAT(text_of(scratch / "unit/resources/case.yaml"), HasSubstr("rover-wheel"));
+  EXPECT_THAT(text_of(scratch / "unit/binaries/linux64/rover_unit.so"), testing::StartsWith("\x7f"
+                                                                                            "ELF"));
+  EXPECT_EQ(shell(here + "cc -std=c99 -pedantic -Wall -Wextra -Werror -c unit/sources/rover_unit.c -o unused.o"), 0);
+  EXPECT_EQ(shell(here + "cc -std=c99 -DFMI2_FUNCTION_PREFIX=rover_unit_ -c unit/sources/rover_unit.c -o unused.o && "
+                         "nm unused.o | grep -q rover_unit_fmi2DoStep"),
+            0);
+}
+
+TEST(ExportFmi, IsItsSourceWithoutACompiler) {
+  const Scratch scratch;
+  const Outcome run = soilbin("export fmi" + rover_on_sand + " --load 50N,65N --slip 0%..60%:10% --output '" +
+                                  (scratch / "rover.fmu").string() + "'",
+                              "PATH=/nowhere ");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("Not compiled: The unit holds its source alone"));
+  EXPECT_THAT(text_of(scratch / "rover.fmu"),
+              AllOf(HasSubstr("sources/rover.c"), testing::Not(HasSubstr("binaries/"))));
+}
+
+TEST(ExportFmi, RefusesWithAHint) {
+  EXPECT_THAT(soilbin("export fmi" + rover_on_sand + " --load 65N --slip 10%..60%:10%").err,
+              AllOf(HasSubstr("begin at 0 %"), HasSubstr("hint: --slip 0%..60%:5%")));
+  EXPECT_THAT(soilbin("export fmi" + rover_on_sand + " --load 65N,80N --slip 20%").err, HasSubstr("runs over slip"));
+  EXPECT_EQ(soilbin("export fmi" + rover_on_sand + " --load 65N --slip 0%..60%:10% --output /proc/x.fmu").status, 2);
+}
+
 }  // namespace
 }  // namespace soilbin::cli::test
