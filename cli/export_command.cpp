@@ -121,23 +121,6 @@ struct GazeboOptions {
   bool wants_map() const { return !map.empty() || !map_soils.empty(); }
 };
 
-/// The wheel on each soil of the map, the question's own first.
-std::vector<compare::WheelSlipFit> mapped_fits(const compare::WheelSlipFit& first, const GazeboOptions& options,
-                                               const Library& library) {
-  std::vector<compare::WheelSlipFit> fits = {first};
-  for (const std::string& name : options.map_soils) {
-    Case question = first.question;
-    question.scenario.soil = find_soil(name, library);
-    require_semi_empirical(question, library);
-    try {
-      fits.push_back(compare::wheel_slip_of(std::move(question)));
-    } catch (const NoSolution& none) {
-      throw NoSolution(fmt::format("--map-soil {}: {}", clipped(name), none.what()));
-    }
-  }
-  return fits;
-}
-
 int export_gazebo(const Question& inputs, const GazeboOptions& options, const Session& session) {
   Case question = inputs.ask(session.place);
   require_semi_empirical(question, session.place.library);
@@ -147,8 +130,10 @@ int export_gazebo(const Question& inputs, const GazeboOptions& options, const Se
   compare::SlipMapSize size;
   set_where_given("--map-size", options.map_size, {"m", above_zero}, size.size);
   const compare::WheelSlipFit fit = compare::wheel_slip_of(std::move(question));
+  std::vector<Soil> others;
+  for (const std::string& name : options.map_soils) others.push_back(find_soil(name, session.place.library));
   compare::SlipMap map;
-  if (options.wants_map()) map = slip_map(mapped_fits(fit, options, session.place.library), size);
+  if (options.wants_map()) map = slip_map(fit, others, size);
   compare::Report report = options.wants_map()
                                ? compare::report_on(fit, map, options.map.empty() ? "slip_map.png" : options.map)
                                : compare::report_on(fit);

@@ -53,6 +53,20 @@ SlipMap slip_map(const std::vector<WheelSlipFit>& fits, const SlipMapSize& asked
   return map;
 }
 
+SlipMap slip_map(const WheelSlipFit& first, const std::vector<Soil>& others, const SlipMapSize& asked) {
+  std::vector<WheelSlipFit> fits = {first};
+  for (const Soil& soil : others) {
+    Case question = first.question;
+    question.scenario.soil = soil;
+    try {
+      fits.push_back(wheel_slip_of(std::move(question)));
+    } catch (const NoSolution& none) {
+      throw NoSolution(fmt::format("soil '{}': {}", soil.name, none.what()));
+    }
+  }
+  return slip_map(fits, asked);
+}
+
 MappedSlip slip_at(const SlipMap& map, const std::array<unsigned char, 3>& colour) {
   MappedSlip found;
   for (std::size_t channel = 0; channel < red_green_blue.size(); ++channel) {

@@ -6,7 +6,7 @@
 //
 // where the nominal compliances are those that WheelSlip has, and its frictions are 1.
 //
-//   const SlipMap map = slip_map({fit_on_sand, fit_on_clay}, {.size = 10.0});  // [m]
+//   const SlipMap map = slip_map(fit_on_sand, {clay, mud}, {.size = 10.0});  // [m]
 //   write_file_atomically("map.png", rgb_png(picture_of(map)));
 #pragma once
 
@@ -50,6 +50,10 @@ struct SlipMapSize {
 /// reach every soil. Throws InputError for no fit, fits of several wheels or loads, fewer pixels than soils, and a size
 /// that is not above 0.
 SlipMap slip_map(const std::vector<WheelSlipFit>& fits, const SlipMapSize& asked = {});
+
+/// The map of a fit's soil and of others, each fitted in its place. Throws as wheel_slip_of, with the soil's name, and as
+/// above.
+SlipMap slip_map(const WheelSlipFit& first, const std::vector<Soil>& others, const SlipMapSize& asked = {});
 
 /// What the plugins have where the map has this colour.
 MappedSlip slip_at(const SlipMap& map, const std::array<unsigned char, 3>& colour);

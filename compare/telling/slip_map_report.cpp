@@ -6,6 +6,7 @@
 #include "compare/report/number_text.hpp"
 #include "compare/telling/export_reports.hpp"
 #include "compare/telling/reports.hpp"
+#include "scenario/markup.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -19,7 +20,7 @@ std::string lookup_sdf(const SlipMap& map, const std::string& file) {
       "  <slip_compliance_longitudinal_delta>{:.9g}</slip_compliance_longitudinal_delta>\n"
       "  <friction_delta>{:.9g}</friction_delta>\n</plugin>\n"
       "<!-- the ground's own friction: 100, as the smaller of the two holds -->\n",
-      file, map.size, map.size, map.step.lateral, map.step.longitudinal, map.step.friction);
+      escaped(file), map.size, map.size, map.step.lateral, map.step.longitudinal, map.step.friction);
 }
 
 Table map_table(const SlipMap& map) {

@@ -9,7 +9,7 @@
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/answer_report.hpp"
 #include "cone_index/model.hpp"
-#include "notebooks/bindings/bindings.hpp"
+#include "notebooks/bindings/scenario.hpp"
 #include "resistive_force/model.hpp"
 #include "scenario/case.hpp"
 #include "scenario/nearest_word.hpp"
@@ -131,18 +131,6 @@ void bind_models(py::module_& module) {
       "called with (share done 0 .. 1, stage).");
 }
 
-/// The analytic model's question about a scenario.
-Case question_of(const Scenario& scenario) {
-  Case question;
-  question.scenario = scenario;
-  question.scenario.effects.clear();
-  ModelChoice choice{ModelKind::bekker_wong, scenario.effects, ""};
-  choice.errors = scenario.errors;
-  question.study.models = {choice};
-  label_models(question.study.models);
-  return question;
-}
-
 void bind_as_asked(py::module_& module) {
   module.def(
       "as_asked",
@@ -219,6 +207,17 @@ void bind_explanation(py::module_& module) {
 }
 
 }  // namespace
+
+Case question_of(const Scenario& scenario) {
+  Case question;
+  question.scenario = scenario;
+  question.scenario.effects.clear();
+  ModelChoice choice{ModelKind::bekker_wong, scenario.effects, ""};
+  choice.errors = scenario.errors;
+  question.study.models = {choice};
+  label_models(question.study.models);
+  return question;
+}
 
 void bind_results(py::module_& module) {
   bind_result(module);

@@ -256,7 +256,7 @@ TEST(ExportGazebo, WritesAMapOfSoils) {
   EXPECT_THAT(text_of(scratch / "map.png"), testing::StartsWith("\x89PNG"));
   EXPECT_THAT(soilbin(asked + " --map-soil lunar-regolit").err, HasSubstr("did you mean 'lunar-regolith'?"));
   EXPECT_THAT(soilbin(asked + " --map-size 20m").err, HasSubstr("hint: --map FILE.png"));
-  EXPECT_THAT(soilbin(asked + " --map-soil snow-sweden").err, HasSubstr("--map-soil snow-sweden: no solution"));
+  EXPECT_THAT(soilbin(asked + " --map-soil snow-sweden").err, HasSubstr("soil 'snow-sweden': no solution"));
 }
 
 TEST(ExportFmi, WritesAUnitThatOthersUnpack) {

@@ -5,6 +5,7 @@ import json
 import math
 import os
 import pickle
+import re
 import signal
 import subprocess
 import sys
@@ -13,6 +14,7 @@ import threading
 import time
 import unittest
 import warnings
+import zipfile
 from pathlib import Path
 
 COMMAND = sys.argv.pop(1)
@@ -769,6 +771,81 @@ class Recording(unittest.TestCase):
         self.assertEqual(sorted(compare.runs_frame(back)["torque"]), sorted(mine["torque"]))
         with self.assertRaises(soilbin.InputError):
             compare.tell_campaign(record, hide=["the truth"])
+
+
+class Exports(unittest.TestCase):
+    GRID = soilbin.conditions(load=[50.0, 65.0], slip=[0.0, 0.2, 0.4])
+    ROVER_BY_FLAGS = ("--tire", "rover-wheel", "--soil", "dry-sand")
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def test_a_table_is_the_commands(self):
+        header, csv, hdf5 = (self.folder / name for name in ("made/rover.h", "rover.csv", "rover.h5"))
+        table = soilbin.export_table(ROVER, self.GRID, header=header, csv=csv, hdf5=str(hdf5))
+        known = command("export", "table", *self.ROVER_BY_FLAGS, "--load", "50N,65N", "--slip", "0%,20%,40%")
+        self.assertEqual(table["channels"], known["channels"])
+        self.assertEqual([axis["nodes"] for axis in table["axes"]], [[50, 65], [0, 0.2, 0.4]])
+        pull = soilbin.estimate(ROVER, load=65, slip=0.2).drawbar_pull
+        self.assertEqual(np.reshape(table["channels"][0]["values"], (2, 3))[1, 1], pull.value)
+        self.assertEqual(table["channels"][0]["std_errors"][4], pull.std_error)
+        self.assertIn("rover_lookup(double load, double slip", header.read_text())
+        self.assertEqual(len(csv.read_text().splitlines()), 7)
+        self.assertEqual(hdf5.read_bytes()[1:4], b"HDF")
+        with self.assertWarnsRegex(soilbin.SoilbinWarning, "rft has no cohesion"):
+            self.assertEqual(soilbin.export_table(ROVER, self.GRID, model="rft")["model"], "rft")
+
+    def test_a_soil_for_chrono_comes_back(self):
+        file = self.folder / "scm.json"
+        document = soilbin.export_scm("dry-sand", file)
+        self.assertEqual(document, json.loads(file.read_text()))
+        self.assertEqual(document["Soil parameters"], command("export", "scm", "dry-sand")["Soil parameters"])
+        self.assertAlmostEqual(soilbin.find_soil(str(file)).semi_empirical.k_phi.value,
+                               soilbin.find_soil("dry-sand").semi_empirical.k_phi.value, delta=1)
+
+    def test_a_wheel_for_gazebo_and_its_map(self):
+        wheel = soilbin.export_gazebo(ROVER, load=65, slip=0.2)
+        known = command("export", "gazebo", *self.ROVER_BY_FLAGS, "--load", "65N", "--slip", "20%")
+        self.assertEqual(wheel, known)
+        mapped = soilbin.export_gazebo(ROVER, load=65, slip=0.2, map=self.folder / "map.png",
+                                       soils=["lunar-regolith", soilbin.find_soil("cmu-sand")], size=20)
+        self.assertEqual([one["soil"] for one in mapped["map"]["soils"]], ["dry-sand", "lunar-regolith", "cmu-sand"])
+        self.assertEqual(mapped["map"]["size"], 20)
+        self.assertEqual((self.folder / "map.png").read_bytes()[1:4], b"PNG")
+
+    def test_a_unit_of_fmi(self):
+        file = self.folder / "rover.fmu"
+        unit = soilbin.export_fmi(ROVER, self.GRID, file)
+        self.assertEqual(unit["table"]["format"], "soilbin-force-table/1")
+        with zipfile.ZipFile(file) as packed:
+            self.assertIsNone(packed.testzip())
+            self.assertIn(unit["guid"], packed.read("modelDescription.xml").decode())
+            self.assertEqual("binaries/linux64/rover.so" in packed.namelist(), unit["compiled"])
+
+    def test_what_can_not_be_exported_is_said(self):
+        with self.assertRaisesRegex(soilbin.InputError, "leave 1 of the 6 nodes of load x slip out"):
+            soilbin.export_table(ROVER, self.GRID[1:])
+        with self.assertRaisesRegex(soilbin.InputError, "no model 'dem' here: there are bekker_wong"):
+            soilbin.export_table(ROVER, self.GRID, model="dem")
+        with self.assertRaisesRegex(soilbin.InputError, "begin at 0 %"):
+            soilbin.export_fmi(ROVER, soilbin.conditions(load=65.0, slip=[0.1, 0.2]), self.folder / "a.fmu")
+        with self.assertRaisesRegex(soilbin.NoSolution, "soil 'snow-sweden'"):
+            soilbin.export_gazebo(ROVER, load=65, slip=0.2, soils=["snow-sweden"])
+        with self.assertRaisesRegex(soilbin.InputError, "no semi_empirical values"):
+            soilbin.export_scm(soilbin.Soil(name="loam", cone_index=soilbin.Estimate(3e5, 3e4)))
+        with self.assertRaisesRegex(RuntimeError, "/proc/none"):
+            soilbin.export_table(ROVER, self.GRID, csv="/proc/none/table.csv")
+
+    def test_the_guides_python_runs(self):
+        page = (Path(__file__).parents[2] / "docs/guide/export.md").read_text()
+        blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+        self.assertTrue(blocks)
+        with contextlib.chdir(self.folder):
+            for block in blocks:
+                exec(block, {})  # as a reader would
+        self.assertEqual(sorted(file.name for file in self.folder.iterdir()), ["map.png", "rover.fmu", "rover.h", "scm.json"])
 
 
 class Loop(unittest.TestCase):

@@ -64,6 +64,7 @@ from soilbin._soilbin import (
     write_soil,
     write_tire,
 )
+from soilbin.exports import export_fmi, export_gazebo, export_scm, export_table
 from soilbin.questions import SoilbinWarning, conditions, estimate, names, run_study, sweep
 
 __all__ = [
@@ -72,6 +73,6 @@ __all__ = [
     "ResistiveForce", "ResistiveForceSoil", "RollingResistance", "RunStopped", "Scenario", "SemiEmpiricalSoil", "Shelf", "SlipBy", "Soil", "SoilbinWarning",
     "Tire", "TractionResult", "Waypoint", "__version__", "at_density",
     "bekker_wong", "cases_folders", "compare", "conditions", "dem",
-    "doubts", "effect_catalogue", "estimate", "find_case", "find_soil", "find_tire", "in_words", "names", "parse_case",
-    "run_study", "sweep", "write_soil", "write_tire",
+    "doubts", "effect_catalogue", "estimate", "export_fmi", "export_gazebo", "export_scm", "export_table", "find_case",
+    "find_soil", "find_tire", "in_words", "names", "parse_case", "run_study", "sweep", "write_soil", "write_tire",
 ]
