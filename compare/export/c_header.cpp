@@ -1,6 +1,7 @@
 // A force table as one file of C. The look-up in it and look_up() of force_table.cpp are one algorithm in two
 // languages; tests compile the former and compare.
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
@@ -28,14 +29,6 @@ std::string axis_in_words(const TableAxis& axis) {
   const std::string unit = unit_behind(axis.view->unit.empty() ? "-" : axis.view->unit);
   return fmt::format("{}: {:.6g} .. {:.6g}{}, {} nodes", axis.view->name, axis.nodes.front() * axis.view->per_si,
                      axis.nodes.back() * axis.view->per_si, unit, axis.nodes.size());
-}
-
-/// "[N]", "[rad]": how the function takes a condition.
-std::string si_unit_of(const ConditionView& view) {
-  const std::string unit(view.column_unit);
-  if (unit == "deg") return "rad";
-  if (unit == "kPa") return "Pa";
-  return unit == "%" ? "-" : unit;
 }
 
 /// Lines of the opening comment.
@@ -129,6 +122,13 @@ std::string replaced(std::string text, const std::string& word, const std::strin
 
 }  // namespace
 
+std::string si_unit_of(const ConditionView& view) {
+  const std::string unit(view.column_unit);
+  if (unit == "deg") return "rad";
+  if (unit == "kPa") return "Pa";
+  return unit == "%" ? "-" : unit;
+}
+
 std::string c_name_of(const std::string& file) {
   std::string name = file.substr(file.find_last_of('/') + 1);
   name = name.substr(0, name.find_last_of('.'));
@@ -143,18 +143,20 @@ std::string c_header_of(const ForceTable& table, const CHeaderAbout& about) {
   const std::string& name = about.name;
   std::string capitals = name;
   std::ranges::transform(capitals, capitals.begin(), [](unsigned char c) { return std::toupper(c); });
-  std::string arguments, place, sizes, pointers, fields, units, lists, limits;
+  std::vector<std::string> arguments, places, units, sizes, pointers;
+  std::string fields, lists, limits;
   for (const TableAxis& axis : table.axes) {
     const std::string key(axis.view->name);
-    arguments += fmt::format("{}double {}", arguments.empty() ? "" : ", ", key);
-    place += (place.empty() ? "" : ", ") + key;
-    units += fmt::format("{}{} [{}]", units.empty() ? "" : ", ", key, si_unit_of(*axis.view));
-    sizes += fmt::format("{}{}", sizes.empty() ? "" : ", ", axis.nodes.size());
-    pointers += fmt::format("{}{}_{}", pointers.empty() ? "" : ", ", name, key);
-    std::string nodes;
-    for (const double node : axis.nodes) nodes += fmt::format("{}{:.17g}", nodes.empty() ? "" : ", ", node + 0.0);
-    lists += fmt::format("static const double {}_{}[{}] = {{{}}};\n", name, key, axis.nodes.size(), nodes);
+    arguments.push_back("double " + key);
+    places.push_back(key);
+    units.push_back(fmt::format("{} [{}]", key, si_unit_of(*axis.view)));
+    sizes.push_back(std::to_string(axis.nodes.size()));
+    pointers.push_back(name + "_" + key);
+    std::vector<std::string> nodes;
+    for (const double node : axis.nodes) nodes.push_back(fmt::format("{:.17g}", node + 0.0));
+    lists += fmt::format("static const double {}_{}[{}] = {{{}}};\n", name, key, nodes.size(), fmt::join(nodes, ", "));
   }
+  const std::string place = fmt::format("{}", fmt::join(places, ", "));
   for (const char* suffix : {"", "_std_error"})
     for (const TableChannel& channel : table.channels)
       fields += fmt::format("  double {}{}; /* {}[{}] */\n", channel.channel->name, suffix,
@@ -172,7 +174,7 @@ std::string c_header_of(const ForceTable& table, const CHeaderAbout& about) {
       " * Not with -ffast-math, which takes NAN away.\n"
       " */\n#ifndef SIZE_H\n#define SIZE_H\n#include <math.h>\n#include <string.h>\n#ifdef __cplusplus\nextern \"C\" "
       "{{\n#endif\n\n",
-      place, units);
+      place, fmt::join(units, ", "));
   text += "enum { NAME_OK = 0, NAME_CLAMPED = 1, NAME_NO_ANSWER = 2 };\n";
   text += fmt::format("enum {{ NAME_axes = {}, NAME_numbers = {} }};\n\ntypedef struct {{\n{}}} NAME_answer;\n\n",
                       table.axes.size(), 2 * table.channels.size(), fields);
@@ -181,15 +183,15 @@ std::string c_header_of(const ForceTable& table, const CHeaderAbout& about) {
       "static const double *const NAME_nodes[NAME_axes] = {{{}}};\nstatic const int NAME_sizes[NAME_axes] = {{{}}};\n\n"
       "/* A row a node, the last axis fastest: the members of NAME_answer. */\nstatic const double "
       "NAME_table[{}][NAME_numbers] = {{\n",
-      pointers, sizes, table.nodes.answers.size());
+      fmt::join(pointers, ", "), fmt::join(sizes, ", "), table.nodes.answers.size());
   for (std::size_t node = 0; node < table.nodes.answers.size(); ++node) {
-    std::string row;
-    for (const TableChannel& channel : table.channels) row += c_number(channel.values[node]) + ", ";
-    for (const TableChannel& channel : table.channels) row += c_number(channel.std_errors[node]) + ", ";
-    text += "  {" + row.substr(0, row.size() - 2) + "},\n";
+    std::vector<std::string> row;
+    for (const TableChannel& channel : table.channels) row.push_back(c_number(channel.values[node]));
+    for (const TableChannel& channel : table.channels) row.push_back(c_number(channel.std_errors[node]));
+    text += fmt::format("  {{{}}},\n", fmt::join(row, ", "));
   }
   text += "};\n";
-  text += replaced(replaced(look_up_in_c, "ARGUMENTS", arguments), "PLACE", place);
+  text += replaced(replaced(look_up_in_c, "ARGUMENTS", fmt::format("{}", fmt::join(arguments, ", "))), "PLACE", place);
   return replaced(replaced(text, "NAME_", name + "_"), "SIZE_H", capitals + "_H");
 }
 

@@ -89,6 +89,9 @@ struct CHeaderAbout {
   std::string version;  ///< of soilbin
 };
 
+/// In which unit the table holds a condition: "N", "rad", "-" for a plain number.
+std::string si_unit_of(const ConditionView& view);
+
 /// "rover table-2.h" as "rover_table_2": what its functions begin with.
 std::string c_name_of(const std::string& file);
 

@@ -51,8 +51,8 @@ struct SlipMapSize {
 /// that is not above 0.
 SlipMap slip_map(const std::vector<WheelSlipFit>& fits, const SlipMapSize& asked = {});
 
-/// The map of a fit's soil and of others, each fitted in its place. Throws as wheel_slip_of, with the soil's name, and as
-/// above.
+/// The map of a fit's soil and of others, each fitted in its place. Throws as wheel_slip_of, with the soil's name, and
+/// as above.
 SlipMap slip_map(const WheelSlipFit& first, const std::vector<Soil>& others, const SlipMapSize& asked = {});
 
 /// What the plugins have where the map has this colour.

@@ -1,6 +1,7 @@
 #include "compare/export/wheel_fmu.hpp"
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,9 +42,7 @@ const TableChannel* channel_named(const ForceTable& table, std::string_view name
 
 /// "N.m", "1": a unit as the standard writes it.
 std::string fmi_unit(std::string unit) {
-  if (unit == "deg") return "rad";
-  if (unit == "kPa") return "Pa";
-  if (unit == "%" || unit == "-" || unit.empty()) return "1";
+  if (unit == "-") return "1";
   std::ranges::replace(unit, ' ', '.');
   return unit;
 }
@@ -70,7 +69,7 @@ std::vector<FmuVariable> variables_of(const ForceTable& table) {
       {"drawbar_load", FmuRole::input, "N", "what the wheel pulls against its travel", 0.0}};
   for (const TableAxis& axis : table.axes)
     if (axis.view->name != "slip")
-      all.push_back({std::string(axis.view->name), FmuRole::input, fmi_unit(std::string(axis.view->column_unit)),
+      all.push_back({std::string(axis.view->name), FmuRole::input, fmi_unit(si_unit_of(*axis.view)),
                      std::string(axis.view->title) + ", of the table", axis_start(axis)});
   all.push_back({"mass", FmuRole::parameter, "kg", "that travels with the wheel", mass_of(drive, gravity)});
   all.push_back({"inertia", FmuRole::parameter, "kg.m2", "of what spins, about the axle",
@@ -132,12 +131,6 @@ TableStiffness stiffness_of(const ForceTable& table) {
   return found;
 }
 
-std::string joined_list(const std::vector<std::string>& parts, const char* between = ", ") {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : between) + part;
-  return text;
-}
-
 /// What the source says of this table, before the equations.
 std::string source_head(const WheelFmu& fmu, const TableStiffness& stiffness) {
   const ForceTable& table = fmu.table;
@@ -184,11 +177,11 @@ std::string source_head(const WheelFmu& fmu, const TableStiffness& stiffness) {
       "enum {{ {}, REALS }};\nenum {{ V_SPIN_IS_GIVEN = REALS, V_OUTSIDE = REALS + 1 }};\n"
       "static const char roles[REALS] = {{{}}}; /* input, parameter, output */\n"
       "static const double starts[REALS] = {{{}}};\n",
-      fmu.guid, joined_list(places), joined_list(roles), joined_list(starts));
+      fmu.guid, fmt::join(places, ", "), fmt::join(roles, ", "), fmt::join(starts, ", "));
   text += fmt::format(
       "enum {{ AXES = {} }};\nstatic const char *const axis_names[AXES] = {{{}}};\n"
       "static const int axis_values[AXES] = {{{}}}; /* -1: the slip of the contact */\n",
-      table.axes.size(), joined_list(names), joined_list(values));
+      table.axes.size(), fmt::join(names, ", "), fmt::join(values, ", "));
   text += fmt::format(
       "#define RADIUS {:.17g}\n#define STIFFEST_PULL {:.9g}\n#define STIFFEST_TORQUE {:.9g}\n"
       "#define SHORTEST_RELAXATION {:.9g}\n",
@@ -199,7 +192,7 @@ std::string source_head(const WheelFmu& fmu, const TableStiffness& stiffness) {
                       in_plane ? "cos(" + input_or("yaw", table.fixed.yaw) + ")" : "1.0");
   text +=
       fmt::format("#define LOOK_UP(real, slip, answer) TABLE_lookup({}, answer)\n#define TELL_CHANNELS(real, at){}\n",
-                  joined_list(asked), told);
+                  fmt::join(asked, ", "), told);
   return text;
 }
 
