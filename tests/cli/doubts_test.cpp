@@ -58,7 +58,7 @@ TEST(DoubtsOfCommands, AreTheSameInAllOfThem) {
 }
 
 // Before core-hours are spent: who only plans them hears of the grains too.
-TEST(DoubtsOfCommands, AreToldBeforeGrainsAreRun) {
+TEST(SlowDoubtsOfCommands, AreToldBeforeGrainsAreRun) {
   const Outcome plan = soilbin("run paper-straight --load 4kN --model dem --dry-run --json");
   ASSERT_EQ(plan.status, 0) << plan.err;
   EXPECT_THAT(plan.err, HasSubstr("warning: the grains are coarse for this wheel"));

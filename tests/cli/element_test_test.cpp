@@ -46,7 +46,7 @@ TEST(ElementTestCommand, RefusesWhatMakesNoSenseWithAHint) {
 }
 
 // The directional couple hangs on the step: said of a test that is asked for it, and of a soil's file.
-TEST(ElementTestCommand, WarnsOfALawWhoseAnswersDependOnTheStep) {
+TEST(SlowElementTestCommand, WarnsOfALawWhoseAnswersDependOnTheStep) {
   constexpr const char* said = "answers depend on the time step";
   const std::string test = "element-test tilting-board paper-sand --size 0.5 --packings 1 --threads 1";
   EXPECT_THAT(soilbin(test + " --rolling directional").err, HasSubstr(said));

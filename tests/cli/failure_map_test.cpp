@@ -145,7 +145,7 @@ TEST(SlowFailureMapCommand, TellsItsFlagsToItsStore) {
   EXPECT_FALSE(asked.contains("--threads"));
 }
 
-TEST(FailureMapCommand, ADryRunListsTheRunsThatComeNext) {
+TEST(SlowFailureMapCommand, ADryRunListsTheRunsThatComeNext) {
   const Scratch scratch;
   const std::string map =
       "failure-map paper-longitudinal --soil paper-sand-virtual --load 2kN..8kN --lug-height 0mm..30mm --angle "

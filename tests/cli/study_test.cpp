@@ -244,7 +244,7 @@ TEST(SlowRun, ACoarserTwinTellsTheErrorOfResolution) {
 }
 
 // A plan is refused for what would refuse its runs, and warns of what they would be warned of.
-TEST(Run, ADryRunJudgesWhatTheRunsWouldMeet) {
+TEST(SlowRun, ADryRunJudgesWhatTheRunsWouldMeet) {
   const Scratch scratch;
   const std::string run = "run '" + pebble_case(scratch, "20 %").string() + "' --bed-length 1.2m --bed-depth 0.09m ";
   for (const char* bad : {"--bed-width 0.1m", "--bed-width 0.3m --behind 0.05m", "--bed-width 0.3m --time-step 100ms",

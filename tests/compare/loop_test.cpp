@@ -243,7 +243,7 @@ LoopAnswer with_swinging_torque(double swings) {
 
 // A torque that swings over the slips belongs to no effect of the catalogue. Half a swing is a hump, which a parabola
 // over the slip follows: so what is left is seen to depend on the slip. Three swings are none that it could follow.
-TEST(Loop, SaysUnknownWhereTheCatalogueHasNoName) {
+TEST(SlowLoop, SaysUnknownWhereTheCatalogueHasNoName) {
   for (const double swings : {0.5, 3.0}) {
     const LoopAnswer answer = with_swinging_torque(swings);
     EXPECT_EQ(answer.verdict(), Verdict::unknown_effect) << reason_words(answer);
@@ -347,7 +347,7 @@ TEST(Loop, IsNotMovedByOneOutlier) {
 }
 
 // A soil that is half a standard deviation off, declared ten times as surely: no effect is there.
-TEST(Loop, SaysWhereTheFitLeavesTheDeclaredSoilFarBehind) {
+TEST(SlowLoop, SaysWhereTheFitLeavesTheDeclaredSoilFarBehind) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {}, fine_noise, 27);
   const auto told = [&] {

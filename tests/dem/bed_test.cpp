@@ -53,7 +53,7 @@ double spin_after(const SettledBed& bed, double time) {
   return spins[spins.size() * 9 / 10];
 }
 
-TEST(SettledBed, StopsRockingByTheDashpotOfRolling) {
+TEST(SlowSettledBed, StopsRockingByTheDashpotOfRolling) {
   ASSERT_EQ(small_bed().setup.laws.rolling, RollingLaw::elastic_plastic);
   const double early = spin_after(small_bed(), 0.25), late = spin_after(small_bed(), 1);
   EXPECT_LT(late, 0.05 * early);

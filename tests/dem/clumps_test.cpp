@@ -305,7 +305,7 @@ BedRecipe bed_of_rods() {
   return recipe;
 }
 
-TEST(GrainsOfSeveralSpheres, MakeABedThatAStoreKeeps) {
+TEST(SlowGrainsOfSeveralSpheres, MakeABedThatAStoreKeeps) {
   const BedRecipe recipe = bed_of_rods();
   EXPECT_NE(recipe_text(recipe), recipe_text(test::small_recipe(recipe.size)));
   const SettledBed bed = settle_bed(recipe, test::with_threads(1));
