@@ -7,21 +7,37 @@
 
 namespace soilbin {
 
-Motor::Motor(const Controller& controller, double radius, double swung, double hold)
+Motor::Motor(const Controller& controller, double radius, double swung, double hold, std::optional<double> power,
+             std::optional<Halt> halt)
     : controller_(controller),
       radius_(radius),
       hold_(hold),
       proportional_(swung / controller.response),
-      integral_(proportional_ / (4 * controller.response)) {}  // critically damped where the wheel doesn't slip
+      integral_(proportional_ / (4 * controller.response)),  // critically damped where the wheel doesn't slip
+      power_(power),
+      halt_(halt) {}
 
 void Motor::require_hold() const {
   if (controller_.highest_torque && std::abs(hold_) > *controller_.highest_torque)
     throw NoSolution("the motor's highest torque can't hold the wheel at rest where the drive begins");
 }
 
+Motor::Limits Motor::limits(double spin) const {
+  const double most = controller_.highest_torque.value_or(HUGE_VAL);
+  if (!power_) return {-most, most};
+  constexpr double standing = 1e-3;  // [rad/s]
+  const double driven = std::min(most, *power_ / std::max(std::abs(spin), standing));
+  return spin >= 0.0 ? Limits{-most, driven} : Limits{-driven, most};
+}
+
 double Motor::share(double time) const {
-  const double t = std::clamp(time / controller_.ramp, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
+  const auto grown = [&](double since) {
+    const double t = std::clamp(since / controller_.ramp, 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+  };
+  const double share = grown(time);
+  if (!halt_) return share;
+  return share - grown(time - halt_->at) + grown(time - halt_->at - controller_.ramp - halt_->lasts);
 }
 
 double Motor::error(double time, double spin) const {
@@ -41,9 +57,10 @@ double Motor::wanted(double time, double spin, double integral) const {
 
 double Motor::torque(double time, double spin, double integral) const {
   const double torque = wanted(time, spin, integral);
-  if (controller_.highest_rim_speed) return torque + std::min(0.0, correction(time, spin, integral));
-  if (!controller_.highest_torque) return torque;
-  return std::clamp(torque, -*controller_.highest_torque, *controller_.highest_torque);
+  const double within =
+      controller_.highest_rim_speed ? torque + std::min(0.0, correction(time, spin, integral)) : torque;
+  const Limits limit = limits(spin);
+  return std::clamp(within, limit.lower, limit.upper);
 }
 
 double Motor::integral_rate(double time, double spin, double integral) const {
@@ -55,9 +72,10 @@ double Motor::integral_rate(double time, double spin, double integral) const {
 
 std::array<double, 2> Motor::beyond(double time, double spin, double integral) const {
   if (controller_.highest_rim_speed) return {-correction(time, spin, integral), 1.0};
-  if (!controller_.highest_torque) return {-1.0, 1.0};
+  const Limits limit = limits(spin);
   const double torque = wanted(time, spin, integral);
-  return {torque - *controller_.highest_torque, torque + *controller_.highest_torque};
+  return {std::isfinite(limit.upper) ? torque - limit.upper : -1.0,
+          std::isfinite(limit.lower) ? torque - limit.lower : 1.0};
 }
 
 }  // namespace soilbin

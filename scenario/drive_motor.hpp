@@ -2,18 +2,30 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "scenario/drive.hpp"
 
 namespace soilbin {
+
+/// A stop on the way: the setpoint falls to that of rest over the controller's ramp, stays there, and grows again.
+struct Halt {
+  double at = 0.0;     ///< it begins to brake [s]
+  double lasts = 0.0;  ///< at rest [s]
+  /// When the setpoint is that of travel again.
+  double over(double ramp) const { return at + lasts + 2 * ramp; }
+};
 
 /// What turns the wheel: a PI controller of the rim speed, held within its highest torque; or a torque, given up to a
 /// PI controller where the rim would turn faster than its highest speed. Beyond a limit the integral is led back by
 /// what the limit cuts off (back-calculation: Astrom and Hagglund), so that torque and rates have no jumps.
 class Motor {
  public:
-  /// `swung`: inertia that the controller is laid out for, I + m r^2 [kg m^2]; `hold`: torque at rest [N m].
-  Motor(const Controller& controller, double radius, double swung, double hold);
+  /// `swung`: inertia that the controller is laid out for, I + m r^2 [kg m^2]; `hold`: torque at rest [N m]; `power`:
+  /// that it gives at most [W], whatever the controller asks; it may brake with more; `halt`: where it stops on the
+  /// way.
+  Motor(const Controller& controller, double radius, double swung, double hold, std::optional<double> power = {},
+        std::optional<Halt> halt = {});
 
   /// Throws NoSolution where the highest torque is less than the torque at rest.
   void require_hold() const;
@@ -31,8 +43,15 @@ class Motor {
   double correction(double time, double spin, double integral) const;
   double wanted(double time, double spin, double integral) const;
 
+  struct Limits {
+    double lower, upper;  ///< [N m]
+  };
+  Limits limits(double spin) const;
+
   Controller controller_;
   double radius_, hold_, proportional_, integral_;
+  std::optional<double> power_;
+  std::optional<Halt> halt_;
 };
 
 }  // namespace soilbin

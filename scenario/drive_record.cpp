@@ -35,6 +35,8 @@ std::string_view word_of(DriveEnd end) {
       return "rolled back";
     case DriveEnd::bed_ends:
       return "the bed ends";
+    case DriveEnd::tips_over:
+      return "tipped over";
   }
   return "";
 }

@@ -50,6 +50,7 @@ enum class DriveEnd {
   buried,       ///< deeper than drive_limits::deepest
   rolled_back,  ///< by half a radius behind the start
   bed_ends,     ///< of the virtual soil bin alone: before time was up or the wheel had arrived
+  tips_over,    ///< of a vehicle alone: one axle carries all of it
 };
 std::string_view word_of(DriveEnd end);
 

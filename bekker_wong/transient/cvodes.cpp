@@ -206,6 +206,13 @@ void Integrator::restart() {
   if (b.problem.sum_count > 0) check(CVodeQuadReInit(b.memory.handle, b.sums.get()), "the sums' new start");
 }
 
+void Integrator::restart(const std::vector<double>& state) {
+  Body& b = *body_;
+  b.state = state;
+  std::ranges::copy(state, all_of(b.y.get()).begin());
+  restart();
+}
+
 const std::vector<double>& Integrator::state() const { return body_->state; }
 const std::vector<double>& Integrator::sums() const { return body_->sum_values; }
 

@@ -50,6 +50,8 @@ class Integrator {
 
   /// Begins anew at the present time and state: after the rate's form has changed. Sums go on.
   void restart();
+  /// Begins anew at the present time from another state, as behind an impact or where axes turn about. Sums go on.
+  void restart(const std::vector<double>& state);
 
   const std::vector<double>& state() const;
   const std::vector<double>& sums() const;

@@ -121,7 +121,7 @@ DrivenWheel::DrivenWheel(const Scenario& scenario, const Drive& drive, const Dri
       throw InputError("soil '" + soil.name + "' lies under another gravity than the case's soil");
     soils.push_back(soil_values(soil));
   }
-  const OperatingCondition at = condition(way_.at(0.0), 0.0, 0.0, 0.0);
+  const OperatingCondition at = condition(way_.at(0.0), drive_.load, 0.0, 0.0, 0.0);
   for (const SoilValues& soil : soils) {
     RollingWheel wheel(tire_, soil, effects, scenario.bin);
     const Outline outline = wheel.outline(at);
@@ -129,7 +129,7 @@ DrivenWheel::DrivenWheel(const Scenario& scenario, const Drive& drive, const Dri
     soils_.push_back({std::move(wheel), outline, flexes});
   }
   std::vector<double> state(state_size(), 0.0);
-  const double z = held_depth(state), entry = entry_angle(z, tire_.radius);
+  const double z = held_depth(way_.at(0.0), drive_.load, state), entry = entry_angle(z, tire_.radius);
   floor_ = floor_share * z;
   rolling_in_ = rolling_in_share * tire_.radius * entry;
   const SoilValues& soil = soils[way_.at(0.0).soil];
@@ -155,9 +155,9 @@ Motor DrivenWheel::motor(double hold_torque) const {
   return {drive_.controller, tire_.radius, inertia_ + mass_ * tire_.radius * tire_.radius, hold_torque};
 }
 
-OperatingCondition DrivenWheel::condition(const Place& place, double slip, double v, double x) const {
+OperatingCondition DrivenWheel::condition(const Place& place, double load, double slip, double v, double x) const {
   OperatingCondition at;
-  at.load = drive_.load;
+  at.load = load;
   at.slip = slip;
   at.speed = std::abs(v);
   at.longitudinal_incline = place.longitudinal_incline;
@@ -176,7 +176,7 @@ std::span<const double> DrivenWheel::line(std::span<const double> nodes, int acr
 DrivenWheel::Span DrivenWheel::contact_span(const OnSoil& on, double z, double z_rate,
                                             const OperatingCondition& at) const {
   const double r = tire_.radius, held = std::max(z, floor_);
-  const OperatingCondition any = on.flexes ? at : condition({}, 0.0, 0.0, 0.0);
+  const OperatingCondition any = on.flexes ? at : condition({}, at.load, 0.0, 0.0, 0.0);
   Span span;
   span.entry = entry_angle(held, r);
   span.exit = on.wheel.angles(any, span.entry).exit;
@@ -209,11 +209,12 @@ DrivenWheel::Tread DrivenWheel::tread(const OnSoil& on, const Span& span, const 
 }
 
 /// A carcass gives way to the soil that acts, and what acts may depend on the slip: both are found in turn.
-DrivenWheel::Contact DrivenWheel::contact(const OnSoil& on, const Place& place, std::span<const double> state) const {
+DrivenWheel::Contact DrivenWheel::contact(const OnSoil& on, const Place& place, double load,
+                                          std::span<const double> state) const {
   constexpr int most_rounds = 8;
   Contact c;
   for (int round = 0; round < most_rounds; ++round) {
-    const OperatingCondition at = condition(place, c.slip, state[speed], state[travelled]);
+    const OperatingCondition at = condition(place, load, c.slip, state[speed], state[travelled]);
     const Span span = contact_span(on, state[depth], state[sinking], at);
     if (round > 0 && span.exit == c.span.exit) break;
     c.span = span, c.tread = tread(on, span, at);
@@ -311,28 +312,34 @@ DrivenWheel::Push DrivenWheel::push(const Place& place, const Contact& touching,
   return p;
 }
 
-Instant DrivenWheel::assemble(double time, std::span<const double> state, const Motor& motor,
-                              std::span<double> node_rate) const {
+Instant DrivenWheel::touch(const Place& place, double load, std::span<const double> state,
+                           std::span<double> node_rate) const {
   Instant now;
-  now.place = way_.at(state[travelled]);
-  const OnSoil& on = soils_[now.place.soil];
-  const Contact touching = contact(on, now.place, state);
+  now.place = place;
+  const OnSoil& on = soils_[place.soil];
+  const Contact touching = contact(on, place, load, state);
   const Span& span = touching.span;
-  node_rates(on, touching, now.place, state, node_rate);
+  node_rates(on, touching, place, state, node_rate);
   now.contact_slip = touching.slip;
-  const OperatingCondition at = condition(now.place, now.contact_slip, state[speed], state[travelled]);
+  const OperatingCondition at = condition(place, load, now.contact_slip, state[speed], state[travelled]);
   // Shear is damped by looking ahead along dj/dt, which is 0 where the wheel's motion is steady.
   std::vector<double> ahead(node_rate.size());
   for (std::size_t k = 0; k < ahead.size(); ++k) ahead[k] = state[first_node + k] + shear_time_ * node_rate[k];
-  const Push p = push(now.place, touching, at, state, ahead);
+  const Push p = push(place, touching, at, state, ahead);
   const double g = span.grip;
   const double damping = std::max(g * heave_damping_ * state[sinking], -g * p.upward);  // soil doesn't pull
-  now.motor_torque = motor.torque(time, state[spin], state[speed_error]);
   now.soil_torque = g * p.torque, now.forward = g * p.forward, now.left = g * p.left;
   now.upward = g * p.upward + damping;
   now.compaction = g * p.compaction, now.shear = g * p.shear, now.added = g * p.added, now.carcass = g * p.carcass;
   now.damping = damping * state[sinking];
   now.deflection = g * p.deflection;
+  return now;
+}
+
+Instant DrivenWheel::assemble(double time, std::span<const double> state, const Motor& motor,
+                              std::span<double> node_rate) const {
+  Instant now = touch(way_.at(state[travelled]), drive_.load, state, node_rate);
+  now.motor_torque = motor.torque(time, state[spin], state[speed_error]);
   return now;
 }
 
@@ -352,26 +359,25 @@ void DrivenWheel::rate(double time, std::span<const double> state, const Motor& 
   out[sinking] = (normal_load + turning * v - now.upward) / mass_;
   out[turned] = state[spin];
   out[spin] = (now.motor_torque - now.soil_torque) / inertia_;
-  out[rolled] = (v - std::abs(v) * state[rolled]) / rolling_in_;
+  out[rolled] = rolled_rate(v, state[rolled]);
   out[mean_speed] = time < drive_.controller.ramp ? 0.0 : (v - state[mean_speed]) / drive_limits::memory;
   out[speed_error] = motor.integral_rate(time, state[spin], state[speed_error]);
 }
 
 /// The push on a wheel that does not move, at the start.
-DrivenWheel::Push DrivenWheel::push_at_rest(const Place& start, std::span<const double> state) const {
+DrivenWheel::Push DrivenWheel::push_at_rest(const Place& start, double load, std::span<const double> state) const {
   const OnSoil& on = soils_[start.soil];
-  const Contact touching = contact(on, start, state);
-  return push(start, touching, condition(start, touching.slip, 0.0, 0.0), state, state.subspan(first_node));
+  const Contact touching = contact(on, start, load, state);
+  return push(start, touching, condition(start, load, touching.slip, 0.0, 0.0), state, state.subspan(first_node));
 }
 
 /// Depth at which the soil carries the load with the shear that the state holds; the state gets it.
-double DrivenWheel::held_depth(std::vector<double>& state) const {
-  const Place start = way_.at(0.0);
-  const double load = drive_.load * std::cos(start.longitudinal_incline) * std::cos(start.transverse_incline);
+double DrivenWheel::held_depth(const Place& start, double vertical_load, std::vector<double>& state) const {
+  const double load = vertical_load * std::cos(start.longitudinal_incline) * std::cos(start.transverse_incline);
   Push p;
   const auto carried = [&](double z) {
     state[depth] = z;
-    p = push_at_rest(start, state);
+    p = push_at_rest(start, vertical_load, state);
     return p.upward - load;
   };
   const double low = 1e-9 * tire_.radius, high = max_sinkage_share * tire_.radius;
@@ -392,6 +398,21 @@ void DrivenWheel::lay_held_shear(std::vector<double>& state, double displacement
   }
 }
 
+Instant DrivenWheel::rest(const Place& place, double load, double displacement, std::vector<double>& state) const {
+  lay_held_shear(state, displacement);
+  held_depth(place, load, state);
+  const Push p = push_at_rest(place, load, state);
+  Instant now;
+  now.place = place, now.soil_torque = p.torque, now.forward = p.forward, now.upward = p.upward;
+  now.deflection = p.deflection;
+  return now;
+}
+
+void turn_about(double& rolled_so_far, std::span<double> nodes) {
+  rolled_so_far = -rolled_so_far;
+  for (double& j : nodes) j = -j;
+}
+
 Held DrivenWheel::hold() const {
   Held held{std::vector<double>(state_size(), 0.0), 0.0};
   std::vector<double>& state = held.state;
@@ -401,8 +422,8 @@ Held DrivenWheel::hold() const {
   Push p;
   const auto spare = [&](double displacement) {
     lay_held_shear(state, displacement);
-    held_depth(state);
-    p = push_at_rest(start, state);
+    held_depth(start, drive_.load, state);
+    p = push_at_rest(start, drive_.load, state);
     return p.forward - pull;
   };
   if (pull == 0.0) {

@@ -74,6 +74,19 @@ class DrivenWheel {
   /// d(state)/dt of the same; `out` has state_size() values.
   void rate(double time, std::span<const double> state, const Motor& motor, std::span<double> out) const;
 
+  /// What the soil does to the wheel at this state on this place, under a load [N] (vertical, as the condition's of a
+  /// steady wheel), whoever moves it: a vehicle, a host. Motor and mass are not asked: no motor_torque. `node_rate`
+  /// gets the rates of the shear displacement. The state's speed and spin are along the wheel's own forward; on a wheel
+  /// that rolls backward that is backward: see turn_about.
+  Instant touch(const Place& place, double load, std::span<const double> state, std::span<double> node_rate) const;
+  /// The wheel at rest under this load, pushed by `displacement` [m] against the soil that it stands on: lays its shear
+  /// and its depth into the state. Throws NoSolution where the soil can't carry it.
+  Instant rest(const Place& place, double load, double displacement, std::vector<double>& state) const;
+  /// d(rolled)/dt
+  double rolled_rate(double v, double rolled_so_far) const {
+    return (v - (v < 0.0 ? -v : v) * rolled_so_far) / rolling_in_;
+  }
+
   Motor motor(double hold_torque) const;
   std::size_t state_size() const;
   std::vector<double> tolerances(double relative) const;
@@ -84,6 +97,7 @@ class DrivenWheel {
   double load() const { return drive_.load; }
   double mass() const { return mass_; }
   double inertia() const { return inertia_; }
+  const Way& way() const { return way_; }
 
  private:
   /// A soil along the way, the wheel on it, and the outline that its effects give it.
@@ -107,11 +121,11 @@ class DrivenWheel {
   /// Forces in the wheel's axes and powers on one soil.
   struct Push;
 
-  OperatingCondition condition(const Place& place, double slip, double speed, double x) const;
+  OperatingCondition condition(const Place& place, double load, double slip, double speed, double x) const;
   /// at: what a carcass and its soil look at.
   Span contact_span(const OnSoil& on, double z, double z_rate, const OperatingCondition& at) const;
   Tread tread(const OnSoil& on, const Span& span, const OperatingCondition& at) const;
-  Contact contact(const OnSoil& on, const Place& place, std::span<const double> state) const;
+  Contact contact(const OnSoil& on, const Place& place, double load, std::span<const double> state) const;
   double slip_in_contact(const OnSoil& on, const Span& span, const Tread& tread, std::span<const double> state) const;
   void node_rates(const OnSoil& on, const Contact& contact, const Place& place, std::span<const double> state,
                   std::span<double> out) const;
@@ -120,10 +134,10 @@ class DrivenWheel {
   /// On all the soils that the contact touches, each by its share. touching: the first of them.
   Push push(const Place& place, const Contact& touching, const OperatingCondition& at, std::span<const double> state,
             std::span<const double> effective_j) const;
-  Push push_at_rest(const Place& start, std::span<const double> state) const;
+  Push push_at_rest(const Place& start, double load, std::span<const double> state) const;
   Instant assemble(double time, std::span<const double> state, const Motor& motor, std::span<double> node_rate) const;
   std::span<const double> line(std::span<const double> nodes, int across) const;
-  double held_depth(std::vector<double>& state) const;
+  double held_depth(const Place& start, double load, std::vector<double>& state) const;
   void lay_held_shear(std::vector<double>& state, double displacement) const;
 
   Tire tire_;
@@ -138,5 +152,9 @@ class DrivenWheel {
   double shear_time_ = 0.0;     ///< of the damping of shear [s]
   double heave_damping_ = 0.0;  ///< [N s/m]
 };
+
+/// A wheel that rolls backward is the mirrored wheel: its rolling-in and the shear displacement at its nodes, as the
+/// wheel that looks the other way has them. Its forces along the ground and its torque then go on where they were.
+void turn_about(double& rolled_so_far, std::span<double> nodes);
 
 }  // namespace soilbin::bekker_wong

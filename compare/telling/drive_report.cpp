@@ -148,6 +148,7 @@ std::string end_in_words(DriveEnd end) {
       return "the bed ends";
     case DriveEnd::stuck:
     case DriveEnd::buried:
+    case DriveEnd::tips_over:
       break;
   }
   return fmt::format("the wheel is {}", word_of(end));

@@ -13,10 +13,11 @@ std::vector<DoubtfulNumber> doubtful_numbers(const std::vector<VehicleWheel>& wh
   const SemiEmpiricalSoil& soil = *wheels.front().scenario.soil.semi_empirical;
   for (const SoilParameter& p : soil_parameters)
     if (const Estimate& value = soil.*p.value; value.std_error > 0.0)
-      all.push_back(
-          {value.value, value.std_error, p.range, [&p, n = soil.exponent.value](Scenario& scenario, double x) {
-             move_value(*scenario.soil.semi_empirical, p, x, n);
-           }});
+      all.push_back({value.value, value.std_error, p.range,
+                     [&p, n = soil.exponent.value](Scenario& scenario, double x) {
+                       move_value(*scenario.soil.semi_empirical, p, x, n);
+                     },
+                     p.title});
   std::vector<std::string> tires;
   for (const VehicleWheel& wheel : wheels) {
     const Tire& tire = wheel.scenario.tire;
@@ -26,7 +27,8 @@ std::vector<DoubtfulNumber> doubtful_numbers(const std::vector<VehicleWheel>& wh
       all.push_back({tire.carcass_pressure->value, tire.carcass_pressure->std_error, zero_or_more,
                      [name = tire.name](Scenario& scenario, double x) {
                        if (scenario.tire.name == name) scenario.tire.carcass_pressure->value = x;
-                     }});
+                     },
+                     "carcass pressure of " + tire.name});
   }
   return all;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "compare/vehicle/vehicle.hpp"
@@ -14,6 +15,7 @@ struct DoubtfulNumber {
   double value = 0.0, sd = 0.0;  ///< [SI]
   Range range{};
   std::function<void(Scenario&, double)> set{};
+  std::string title{};  ///< for people: "friction angle"
 
   /// The wheels with this number set to a value.
   std::vector<VehicleWheel> in(std::vector<VehicleWheel> wheels, double to) const {

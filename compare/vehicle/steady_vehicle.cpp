@@ -7,6 +7,7 @@
 
 #include "bekker_wong/gsl.hpp"
 #include "bekker_wong/gsl_systems.hpp"
+#include "compare/vehicle/standing.hpp"
 #include "scenario/soil.hpp"
 #include "scenario/yawed_frames.hpp"
 
@@ -19,55 +20,11 @@ constexpr double lifts = 1e-9;            // share of the weight below which a w
 constexpr double most_braked = -0.95;     // a locked wheel has no speed ratio
 constexpr double scanned_slip = 0.05;
 
-/// The plane a + b x + c y through the wheels' sinkages, by least squares; b and c are 0 where nothing tells them.
-struct SinkagePlane {
-  double along = 0.0, across = 0.0;
-};
-
 /// An angle within 40 deg of straight on, from an unknown that has no bounds: two of them stay below 90 deg.
 double turn_of(double unknown) {
   constexpr double most = 0.7;
   return most * std::tanh(unknown / most);
 }
-
-double mean_of_places(const std::vector<double>& all) {
-  double sum = 0.0;
-  for (const double one : all) sum += one;
-  return sum / static_cast<double>(all.size());
-}
-
-SinkagePlane plane_through(const std::vector<VehiclePoint>& points) {
-  std::vector<double> xs, ys, zs;
-  for (const VehiclePoint& point : points) xs.push_back(point.x), ys.push_back(point.y), zs.push_back(point.z);
-  const double x0 = mean_of_places(xs), y0 = mean_of_places(ys), z0 = mean_of_places(zs);
-  double xx = 0.0, yy = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double x = xs[i] - x0, y = ys[i] - y0, z = zs[i] - z0;
-    xx += x * x, yy += y * y, xy += x * y, xz += x * z, yz += y * z;
-  }
-  constexpr double none = 1e-18;
-  const double determinant = xx * yy - xy * xy;
-  if (determinant > none) return {(xz * yy - yz * xy) / determinant, (yz * xx - xz * xy) / determinant};
-  return {xx > none ? xz / xx : 0.0, yy > none ? yz / yy : 0.0};
-}
-
-/// A point of the vehicle in axes along the ground, when it is tilted.
-VehiclePoint tilted(const VehiclePoint& p, double nose_down, double left_down) {
-  const double s = std::sin(nose_down), c = std::cos(nose_down), t = std::sin(left_down), d = std::cos(left_down);
-  const double z = -p.y * t + p.z * d, y = p.y * d + p.z * t;
-  return {p.x * c + z * s, y, -p.x * s + z * c};
-}
-
-/// Sums of forces along the vehicle and of their moments about a point.
-struct Wrench {
-  double pitch = 0.0, roll = 0.0, yaw = 0.0;  ///< nose down, right side down, nose to the left [N m]
-
-  void add(const VehiclePoint& at, const GroundForce& along, double up) {
-    pitch += at.z * along.forward - at.x * up;
-    roll += at.y * up - at.z * along.left;
-    yaw += at.x * along.left - at.y * along.forward;
-  }
-};
 
 }  // namespace
 

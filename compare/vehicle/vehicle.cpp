@@ -40,7 +40,22 @@ VehicleAxle read_axle(const YamlNode& node, std::size_t number, const Library& l
   return axle;
 }
 
+VehicleDrive read_vehicle_drive(const YamlNode& node, const Library& library, Reading reading) {
+  const SoilReader soils = [&](const YamlNode& part, const Reading& at) { return read_soil_part(part, library, at); };
+  reading.soils = &soils;
+  return read_mapping<VehicleDrive>(node, reading);
+}
+
 }  // namespace
+
+std::string contradiction(const VehicleDrive& drive) {
+  Drive alike;
+  alike.profile = drive.profile;
+  for (const Waypoint& point : drive.profile)
+    if (point.yaw != 0.0 || point.transverse_incline != 0.0)
+      return "a vehicle is driven straight up or down: its way has no yaw and no transverse_incline";
+  return contradiction(alike);
+}
 
 std::string contradiction(const VehicleCase& vehicle) {
   if (vehicle.axles.empty()) return "";  // they are read after the rest
@@ -65,7 +80,7 @@ VehicleCase parse_vehicle_case(const SourceText& source, const Library& library,
   const YamlNode document = parse_yaml(source);
   Reading reading{&source, std::nullopt, nullptr, ""};
   expect_format(document, vehicle_case_format, reading);
-  VehicleCase vehicle = read_mapping<VehicleCase>(document, reading, {"format", "axles", "soil", "effects"});
+  VehicleCase vehicle = read_mapping<VehicleCase>(document, reading, {"format", "axles", "soil", "effects", "drive"});
   const Library near = library.beside(source.file);
   const YamlNode& soil =
       *value_of(document, "soil", Need::required, "a mapping, a name of the library, or a path", reading);
@@ -81,6 +96,8 @@ VehicleCase parse_vehicle_case(const SourceText& source, const Library& library,
   if (vehicle.axles.empty()) reading.refuse(axles, "the list of axles is empty");
   if (const YamlNode* list = value_of(document, "effects", Need::optional, "list of effects; [] for none", reading))
     vehicle.effects = read_effects(*list, effects, reading);
+  if (const YamlNode* drive = value_of(document, "drive", Need::optional, "how it is driven in time", reading))
+    vehicle.drive = read_vehicle_drive(*drive, near, reading);
   if (const std::string wrong = contradiction(vehicle); !wrong.empty()) reading.refuse(axles, wrong);
   return vehicle;
 }

@@ -45,6 +45,8 @@ struct VehicleAxle {
   double lead = 0.0;                       ///< its rim speed over that of the drive line, less 1 [-], > -1
   std::optional<double> largest_torque{};  ///< of a wheel's motor [N m], > 0
   std::optional<double> stiffness{};       ///< of a wheel's suspension and tire [N/m], > 0; absent: all are alike
+  std::optional<double> inertia{};         ///< of a wheel and what spins with it [kg m^2], > 0; absent: a tenth of
+                                           ///< the mass that it carries, times its radius squared
   Tire tire{};
 };
 
@@ -62,6 +64,24 @@ struct VehicleCondition {
   double pull = 0.0;         ///< of the drawbar [N]: what the vehicle pulls behind it
 };
 
+/// A stop on the way, and the start from it.
+struct VehicleStop {
+  double at = 0.0;     ///< it begins to brake by its drive line [s]
+  double lasts = 3.0;  ///< between the ramps [s]
+};
+
+/// How the vehicle is driven in time, from rest: `drive` of a wheel's case, for the whole.
+struct VehicleDrive {
+  double duration = 30.0;               ///< [s]
+  std::optional<double> distance{};     ///< it has arrived there [m]
+  double damping = 0.2;                 ///< share of critical damping, of the soil under heave and of shear at rest [-]
+  std::optional<double> stuck_speed{};  ///< mean speed of travel below which it is stuck [m/s]; absent: a hundredth
+                                        ///< of the speed that is held, or 0.5 mm/s
+  std::optional<VehicleStop> stop{};    ///< on the way
+  std::optional<Controller> controller{};  ///< absent: holds the condition's speed; torques are of all driven wheels
+  std::vector<Waypoint> profile{};         ///< rising in `at`; empty: the condition's slope and pull throughout
+};
+
 /// A vehicle on a soil.
 struct VehicleCase {
   std::string name{}, source{};
@@ -74,6 +94,7 @@ struct VehicleCase {
   Soil soil{};
   std::vector<EffectChoice> effects{};
   VehicleCondition condition{};
+  VehicleDrive drive{};
 };
 
 template <class Visitor>
@@ -99,6 +120,8 @@ void describe(Visitor& v, std::type_identity<VehicleAxle>) {
            "of a wheel's motor, with the drive line 'motors'");
   v.number("stiffness", &A::stiffness, Measure{"kN/m", above_zero}, Need::optional,
            "of a wheel's spring and tire; absent: all are alike");
+  v.number("inertia", &A::inertia, Measure{"kg m^2", above_zero}, Need::optional,
+           "of a wheel and what spins with it; absent: a tenth of the mass that it carries, times radius squared");
 }
 
 template <class Visitor>
@@ -116,6 +139,28 @@ void describe(Visitor& v, std::type_identity<VehicleCondition>) {
   v.number("speed", &C::speed, Measure{"m/s", above_zero}, Need::optional, "of travel");
   v.number("pull", &C::pull, Measure{"N", any_value}, Need::optional, "that the vehicle pulls behind it");
 }
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<VehicleStop>) {
+  v.number("at", &VehicleStop::at, Measure{"s", above_zero}, Need::required, "it begins to brake by its drive line");
+  v.number("lasts", &VehicleStop::lasts, Measure{"s", zero_or_more}, Need::optional, "between the controller's ramps");
+}
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<VehicleDrive>) {
+  using D = VehicleDrive;
+  v.number("duration", &D::duration, Measure{"s", above_zero}, Need::optional, "the drive ends then at the latest");
+  v.number("distance", &D::distance, Measure{"m", above_zero}, Need::optional, "the vehicle has arrived there");
+  v.number("damping", &D::damping, Measure{"-", fractions}, Need::optional,
+           "share of critical damping, of the soil under heave and of shear at rest");
+  v.number("stuck_speed", &D::stuck_speed, Measure{"m/s", above_zero}, Need::optional,
+           "mean speed of travel below which it is stuck; absent: a hundredth of the speed that is held");
+  v.group("stop", &D::stop, Need::optional, "a stop on the way, and the start from it");
+  v.group("controller", &D::controller, Need::optional, "what turns the wheels; absent: holds the condition's speed");
+  v.list("profile", &D::profile, Need::optional, "places along the way; absent: the condition's slope and pull");
+}
+
+std::string contradiction(const VehicleDrive& drive);
 
 template <class Visitor>
 void describe(Visitor& v, std::type_identity<VehicleCase>) {

@@ -134,6 +134,10 @@ std::array<VehicleLimit, 3> steepest_slopes(const VehicleCase& question, const s
           steepest(question, wheels, model, Way::across)};
 }
 
+VehicleLimit steepest_climb(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model) {
+  return steepest(question, wheels, model, Way::up);
+}
+
 VehicleAnswers answers_of(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model) {
   if (!question.soil.semi_empirical)
     throw InputError("soil '" + question.soil.name + "' has no semi_empirical values, which a vehicle needs");

@@ -69,4 +69,7 @@ VehicleAnswers answers_of(const VehicleCase& question, const std::vector<Vehicle
 std::array<VehicleLimit, 3> steepest_slopes(const VehicleCase& question, const std::vector<VehicleWheel>& wheels,
                                             const Model& model);
 
+/// The steepest one straight up alone.
+VehicleLimit steepest_climb(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model);
+
 }  // namespace soilbin::compare
