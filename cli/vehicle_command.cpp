@@ -1,4 +1,7 @@
 // soilbin vehicle: a vehicle's wheels on soil: does it go, how steep, and which wheel gives out.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <memory>
 #include <set>
 #include <utility>
@@ -10,8 +13,9 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
+#include "compare/doubts/declared_doubts.hpp"
 #include "compare/telling/reports.hpp"
-#include "compare/vehicle/vehicle_answers.hpp"
+#include "compare/vehicle/driven_answers.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -19,6 +23,7 @@ namespace {
 struct VehicleOptions {
   std::string file, soil, density, map;
   unsigned samples = 50;
+  bool drive = false;
   compare::TireLeftOut left_out;
   DescribedFlags<compare::VehicleCondition> condition;
   OutputFlags outputs;
@@ -45,6 +50,30 @@ compare::Doubts doubts_about(const compare::VehicleAnswers& answers, compare::Do
   return once_each(notes);
 }
 
+/// A flag that the file's own drive would leave unread is refused.
+void refuse_what_the_drive_says(const VehicleOptions& options, const compare::VehicleDrive& drive) {
+  for (const char* key : {"slope", "pull"})
+    if (options.condition.given(key) && !drive.profile.empty())
+      throw InputError(fmt::format("--{} has no effect: the file's drive has a profile of its own", key));
+  if (options.condition.given("speed") && drive.controller)
+    throw InputError("--speed has no effect: the file's drive has a controller of its own");
+}
+
+int drive_in_time(const VehicleOptions& options, const compare::VehicleCase& question,
+                  const std::vector<compare::VehicleWheel>& wheels, const Model& model, compare::Doubts doubts,
+                  const Session& session) {
+  refuse_what_the_drive_says(options, question.drive);
+  constexpr int intervals = 400;
+  const auto shown = shown_progress();
+  const compare::DrivenAnswers answers =
+      compare::driven_answers(question, wheels, model, intervals, [&](double time, double duration) {
+        constexpr double parts = 1000.0;
+        shown(static_cast<std::size_t>(std::max(1.0, parts * time / duration)), static_cast<std::size_t>(parts));
+      });
+  append(doubts, compare::doubts(question.soil));
+  return publish(compare::report_on(answers), options.outputs, once_each(doubts), session).status(done);
+}
+
 int vehicle(const VehicleOptions& options, const Session& session) {
   compare::VehicleCase question = compare::parse_vehicle_case(read_source_text(options.file, largest_yaml),
                                                               session.place.library, session.place.effects);
@@ -54,6 +83,7 @@ int vehicle(const VehicleOptions& options, const Session& session) {
   std::vector<compare::VehicleWheel> wheels = wheels_of(question);
   compare::Doubts notes = declare_tires(wheels, options.left_out);
   const bekker_wong::BekkerWong model({.errors = false, .patch = false});
+  if (options.drive) return drive_in_time(options, question, wheels, model, std::move(notes), session);
   compare::VehicleAnswers answers = compare::answers_of(question, wheels, model);
   if (!options.map.empty())
     answers.map = compare::go_map(question, wheels, model,
@@ -81,12 +111,18 @@ void add_vehicle(CLI::App& app, Session& session) {
   CLI::Option* map = add_file(*command, "--map", options->map, "FILE.csv",
                               "the chance to go over slope and heading, by the soil's standard deviations");
   add_value(*command, "--samples", options->samples, "WHOLE", "soils that the map draws (50)")->needs(map);
-  options->outputs.add_to(*command, {.json = "soilbin-vehicle-answer/1, in SI",
-                                     .plot = "draw pull and sinkages against slip",
-                                     .csv = "save pull and wheels against slip"});
+  command
+      ->add_flag("--drive", options->drive,
+                 "in time, from rest: as the file's section 'drive' says, else for 30 s at the condition's speed")
+      ->excludes(map);
+  options->outputs.add_to(*command, {.json = "soilbin-vehicle-answer/1, in time soilbin-vehicle-drive/1; in SI",
+                                     .plot = "draw pull and sinkages against slip, or the drive against time",
+                                     .csv = "save pull and wheels against slip, or every sample of the drive"});
   command->footer(
-      "Exit status 1 where the vehicle does not travel in the condition that is asked.\n"
-      "Example: soilbin vehicle cases/vehicles/truck.yaml --slope 5deg --pull 2kN");
+      "Exit status 1 where the vehicle does not travel in the condition that is asked, in time where it does not stand "
+      "at its start.\n"
+      "Examples: soilbin vehicle cases/vehicles/truck.yaml --slope 5deg --pull 2kN\n"
+      "          soilbin vehicle cases/vehicles/rover.yaml --drive --slope 10deg --report climb.html");
   command->callback([=, &session] { session.action = [=, &session] { return vehicle(*options, session); }; });
 }
 

@@ -38,6 +38,7 @@ struct AnalyticDrive;
 struct BevameterFit;
 struct BevameterReadings;
 struct Campaign;
+struct DrivenAnswers;
 struct DriveSides;
 struct FailureMapResult;
 struct ForceTable;
@@ -80,6 +81,8 @@ Report report_on(const cone_index::Mobility& mobility, const std::string& soil);
 
 /// A vehicle on a soil: whether it travels, how steep, each wheel, power, pull against slip; soilbin-vehicle-answer/1.
 Report report_on(const VehicleAnswers& answers);
+/// A vehicle driven in time: how it ended and which axle gave out; soilbin-vehicle-drive/1.
+Report report_on(const DrivenAnswers& answers);
 /// A row for each slope and heading.
 std::string csv_of(const GoMap& map);
 

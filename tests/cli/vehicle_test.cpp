@@ -67,6 +67,46 @@ TEST(SlowVehicleCommand, SavesTheChanceToGo) {
   EXPECT_EQ(soilbin("vehicle " + rover + " --samples 4").status, 2);
 }
 
+const std::string climbing_rover = R"(format: soilbin-vehicle-case/1
+name: climber
+mass: 73.4 kg
+centre_of_gravity: {x: 0.6 m, z: 0.6 m}
+axles:
+  - {name: front, x: 1.2 m, track: 1.3 m, tire: {name: wheel, radius: 250 mm, width: 200 mm}}
+  - {name: rear, x: 0 m, track: 1.3 m, tire: {name: wheel, radius: 250 mm, width: 200 mm}}
+soil: grc-1
+drive:
+  duration: 60 s
+  controller: {rim_speed: 0.2 m/s}
+  profile:
+    - {at: 1 m}
+    - {at: 4 m, longitudinal_incline: 35 deg}
+)";
+
+TEST(VehicleCommand, DrivesItInTimeUntilItIsStuck) {
+  const Scratch scratch;
+  const std::string file = "'" + scratch.write("climber.yaml", climbing_rover).string() + "'";
+  const Outcome run = soilbin("vehicle " + file + " --drive");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("It is stuck: After"), HasSubstr("What gave out: The wheels spin"),
+                             HasSubstr("Steadily: It climbs up to 23."), HasSubstr("unaccounted for")));
+  const auto answer = soilbin("vehicle " + file + " --drive --json").json();
+  EXPECT_EQ(answer.at("format"), "soilbin-vehicle-drive/1");
+  EXPECT_EQ(answer.at("end"), "stuck");
+  EXPECT_EQ(answer.at("gave_out"), "front");
+  EXPECT_EQ(answer.at("axles").at(1).at("sinkage_m").size(), answer.at("samples").at("time_s").size());
+  const Outcome ignored = soilbin("vehicle " + file + " --drive --slope 5deg");
+  EXPECT_EQ(ignored.status, 2);
+  EXPECT_THAT(ignored.err, HasSubstr("--slope has no effect: the file's drive has a profile of its own"));
+}
+
+TEST(VehicleCommand, SaysInTimeThatTheSoilDoesNotHoldIt) {
+  const Outcome run = soilbin("vehicle " + rover + " --drive --slope 45deg --json");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.err, HasSubstr("does not stand at its start"));
+  EXPECT_TRUE(run.json().at("end").is_null());
+}
+
 TEST(VehicleCommand, ItsFileIsChecked) {
   EXPECT_THAT(soilbin("check " + rover).out, HasSubstr("valid: vehicle 'rover': 2 axles on"));
   const Scratch scratch;

@@ -1,0 +1,316 @@
+// A vehicle driven in time as it is told; soilbin-vehicle-drive/1.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "compare/report/json_fields.hpp"
+#include "compare/report/number_text.hpp"
+#include "compare/telling/reports.hpp"
+#include "compare/vehicle/driven_answers.hpp"
+#include "scenario/csv.hpp"
+#include "scenario/unit.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+std::string axle_called(const DrivenAnswers& answers, std::size_t axle) { return answers.question.axles[axle].name; }
+
+std::string vehicle_end_in_words(DriveEnd end) {
+  switch (end) {
+    case DriveEnd::time_is_up:
+      return "it still travels when time is up";
+    case DriveEnd::arrived:
+      return "it arrives";
+    case DriveEnd::stuck:
+      return "it is stuck";
+    case DriveEnd::buried:
+      return "it is buried";
+    case DriveEnd::rolled_back:
+      return "it rolls back";
+    case DriveEnd::tips_over:
+      return "it tips over";
+    case DriveEnd::bed_ends:
+      break;
+  }
+  return "";
+}
+
+std::string number_or_error(double value, const std::optional<double>& std_error) {
+  return std_error && *std_error > 0.0 ? number(Estimate{value, *std_error}) : number(value);
+}
+
+std::string why_in_words(const DrivenAnswers& answers) {
+  const VehicleDriveRecord& record = *answers.record;
+  const std::string axle = axle_called(answers, *record.gave_out);
+  if (record.end == DriveEnd::buried) return fmt::format("The wheels of axle '{}' are in up to the hub.", axle);
+  if (record.at_motors_limit)
+    return fmt::format("The drive line gives no more torque. The axle that pulls least for its load is '{}'.", axle);
+  return fmt::format("The wheels spin and the soil gives no more. The axle that pulls least for its load is '{}'.",
+                     axle);
+}
+
+std::vector<BackedSentence> driven_verdicts(const DrivenAnswers& answers) {
+  std::vector<BackedSentence> said;
+  if (!answers.record) {
+    said.push_back({"It does not stand at its start", fmt::format("{}.", capital(answers.failure->words))});
+  } else {
+    const VehicleDriveRecord& record = *answers.record;
+    const VehicleDriveSample& end = record.samples.back();
+    const bool timed = record.end != DriveEnd::time_is_up, placed = record.end != DriveEnd::arrived;
+    said.push_back({capital(vehicle_end_in_words(record.end)),
+                    fmt::format("After {} s and {} m, on a slope of {} deg.",
+                                number_or_error(record.end_time, timed ? answers.end_time_error : std::nullopt),
+                                number_or_error(end.travelled, placed ? answers.travelled_error : std::nullopt),
+                                number(end.slope / degree, 3))});
+    if (record.gave_out) said.push_back({"What gave out", why_in_words(answers)});
+    if (end.slip && record.end != DriveEnd::stuck)
+      said.push_back({"At the end", fmt::format("{} m/s at {} % slip, with {} N m at the wheels.", number(end.speed, 3),
+                                                number(100 * *end.slip, 3), number(end.torque, 3))});
+  }
+  if (answers.up.angle)
+    said.push_back({"Steadily",
+                    fmt::format("It climbs up to {} deg of {}.",
+                                number({answers.up.angle->value,
+                                        std::isfinite(answers.up.angle->std_error) ? answers.up.angle->std_error : 0.0},
+                                       1 / degree),
+                                answers.question.soil.name)});
+  for (const MovedVehicleDrive& moved : answers.moved)
+    for (const MovedVehicleDrive::Side* side : {&moved.lower, &moved.higher}) {
+      if (side->value == moved.value || side->end == answers.record->end) continue;
+      said.push_back(
+          {"", fmt::format("With the {} a standard deviation {} {}.", moved.title,
+                           side == &moved.lower ? "lower" : "higher",
+                           side->end ? fmt::format("{} after {} s and {} m", vehicle_end_in_words(*side->end),
+                                                   number(side->end_time), number(side->travelled))
+                                     : "it does not stand at its start")});
+    }
+  return said;
+}
+
+std::string percent_or_dash(const std::optional<double>& slip) { return slip ? number(100 * *slip) : "-"; }
+
+Table driven_samples_table(const VehicleDriveRecord& record) {
+  constexpr std::size_t shown = 12;
+  Table table{"",
+              {"time [s]", "travelled [m]", "slope [deg]", "speed [m/s]", "rim [m/s]", "slip [%]", "torque [N m]",
+               "deepest [mm]"}};
+  const std::size_t count = record.samples.size(), rows = std::min(shown, count);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const VehicleDriveSample& s = record.samples[rows == 1 ? 0 : row * (count - 1) / (rows - 1)];
+    double deepest = 0.0;
+    for (const DrivenAxle& axle : s.axles) deepest = std::max(deepest, axle.sinkage);
+    table.add({number(s.time), number(s.travelled), number(s.slope / degree), number(s.speed), number(s.rim_speed),
+               percent_or_dash(s.slip), number(s.torque), number(1000 * deepest)});
+  }
+  return table;
+}
+
+Table driven_axles_table(const DrivenAnswers& answers) {
+  Table table{"Each wheel of an axle at the end",
+              {"axle", "load [N]", "slip [%]", "force [N]", "torque [N m]", "sinkage [mm]"}};
+  const std::vector<DrivenAxle>& axles = answers.record->samples.back().axles;
+  for (std::size_t i = 0; i < axles.size(); ++i)
+    table.add({axle_called(answers, i), number(axles[i].normal_load), percent_or_dash(axles[i].slip),
+               number(axles[i].forward), number(axles[i].torque), number(1000 * axles[i].sinkage)});
+  table.legend = "Load: normal to the ground. Force: of the soil along travel.";
+  return table;
+}
+
+Table driven_energy_table(const bekker_wong::EnergyLedger& e) {
+  Table table{"Where the work of the motors went", {"part", "J"}};
+  table.add({"by the motors", number(e.motor)});
+  table.add({"shears the soil", number(e.shear)});
+  table.add({"presses the soil", number(e.compaction)});
+  if (e.added != 0.0) table.add({"added forces of effects", number(e.added)});
+  if (e.carcass != 0.0) table.add({"is in the tires' carcasses", number(e.carcass)});
+  table.add({"gains height, less what the loads give where wheels sink", number(e.height)});
+  table.add({"pulls the drawbar", number(e.drawbar)});
+  table.add({"is in motion", number(e.kinetic)});
+  table.add({"damps the heave", number(e.damping)});
+  table.add({"unaccounted for: the integration's error", number(e.unaccounted())});
+  return table;
+}
+
+Table driven_happenings_table(const DrivenAnswers& answers) {
+  Table table{"", {"time [s]", "travelled [m]", "axle", "what happened"}, {false, false, true, true}};
+  for (const VehicleDriveHappening& h : answers.record->happenings)
+    table.add({number(h.time), number(h.travelled), axle_called(answers, h.axle), std::string(word_of(h.what))});
+  return table;
+}
+
+Sheet driven_sheet(const DrivenAnswers& answers) {
+  const std::vector<VehicleDriveSample>& samples = answers.record->samples;
+  const Axis time{"time [s]"};
+  Sheet sheet{answers.question.name + " on " + answers.question.soil.name};
+  const auto axles_named = static_cast<int>(answers.question.axles.size());
+  const auto curve = [&](const std::string& label, int color,
+                         const std::function<double(const VehicleDriveSample&)>& get) {
+    Series series{label};
+    series.color = color % 6, series.dash = color / 6;
+    for (const VehicleDriveSample& s : samples) series.x.push_back(s.time), series.y.push_back(get(s));
+    return series;
+  };
+  const auto of_axles = [&](const std::string& title, const std::function<double(const DrivenAxle&)>& get) {
+    Plot plot{title, time, {}, {}};
+    for (std::size_t i = 0; i < answers.question.axles.size(); ++i)
+      plot.series.push_back(curve(axle_called(answers, i), static_cast<int>(i),
+                                  [&get, i](const VehicleDriveSample& s) { return get(s.axles[i]); }));
+    sheet.plots.push_back(std::move(plot));
+  };
+  sheet.plots.push_back({"Speed [m/s]",
+                         time,
+                         {},
+                         {curve("travel", axles_named, [](const VehicleDriveSample& s) { return s.speed; }),
+                          curve("rim", axles_named + 1, [](const VehicleDriveSample& s) { return s.rim_speed; })}});
+  sheet.plots.push_back(
+      {"Slope [deg]", time, {}, {curve("", 0, [](const VehicleDriveSample& s) { return s.slope / degree; })}});
+  of_axles("Slip [%]", [](const DrivenAxle& a) { return a.slip ? 100 * *a.slip : not_a_number; });
+  of_axles("Load of a wheel [N]", [](const DrivenAxle& a) { return a.normal_load; });
+  of_axles("Sinkage [mm]", [](const DrivenAxle& a) { return 1000 * a.sinkage; });
+  of_axles("Torque of a wheel [N m]", [](const DrivenAxle& a) { return a.torque; });
+  return sheet;
+}
+
+struct DrivenColumn {
+  const char* name;
+  std::function<double(const VehicleDriveSample&)> get;
+};
+
+const std::vector<DrivenColumn>& driven_columns() {
+  using S = VehicleDriveSample;
+  static const std::vector<DrivenColumn> all = {
+      {"time_s", [](const S& s) { return s.time; }},
+      {"travelled_m", [](const S& s) { return s.travelled; }},
+      {"speed_m_s", [](const S& s) { return s.speed; }},
+      {"acceleration_m_s2", [](const S& s) { return s.acceleration; }},
+      {"rim_speed_m_s", [](const S& s) { return s.rim_speed; }},
+      {"slip", [](const S& s) { return s.slip.value_or(not_a_number); }},
+      {"torque_Nm", [](const S& s) { return s.torque; }},
+      {"pull_N", [](const S& s) { return s.pull; }},
+      {"slope_deg", [](const S& s) { return s.slope / degree; }},
+      {"motor_J", [](const S& s) { return s.energy.motor; }},
+      {"kinetic_J", [](const S& s) { return s.energy.kinetic; }},
+      {"height_J", [](const S& s) { return s.energy.height; }},
+      {"drawbar_J", [](const S& s) { return s.energy.drawbar; }},
+      {"compaction_J", [](const S& s) { return s.energy.compaction; }},
+      {"shear_J", [](const S& s) { return s.energy.shear; }},
+      {"added_forces_J", [](const S& s) { return s.energy.added; }},
+      {"carcass_J", [](const S& s) { return s.energy.carcass; }},
+      {"damping_J", [](const S& s) { return s.energy.damping; }},
+      {"unaccounted_J", [](const S& s) { return s.energy.unaccounted(); }},
+  };
+  return all;
+}
+
+struct DrivenAxleColumn {
+  const char* name;
+  std::function<double(const DrivenAxle&)> get;
+};
+
+const std::vector<DrivenAxleColumn>& driven_axle_columns() {
+  using A = DrivenAxle;
+  static const std::vector<DrivenAxleColumn> all = {
+      {"normal_load_N", [](const A& a) { return a.normal_load; }},
+      {"rim_speed_m_s", [](const A& a) { return a.rim_speed; }},
+      {"slip", [](const A& a) { return a.slip.value_or(not_a_number); }},
+      {"contact_slip", [](const A& a) { return a.contact_slip; }},
+      {"sinkage_m", [](const A& a) { return a.sinkage; }},
+      {"torque_Nm", [](const A& a) { return a.torque; }},
+      {"soil_force_N", [](const A& a) { return a.forward; }},
+  };
+  return all;
+}
+
+Json moved_vehicle_json(const MovedVehicleDrive::Side& side) {
+  return {{"value", side.value},
+          {"end", side.end ? Json(std::string(word_of(*side.end))) : Json()},
+          {"end_time", side.end ? Json(side.end_time) : Json()},
+          {"travelled", side.end ? Json(side.travelled) : Json()}};
+}
+
+/// soilbin-vehicle-drive/1
+Json driven_json(const DrivenAnswers& answers) {
+  Json document = {{"format", "soilbin-vehicle-drive/1"},
+                   {"vehicle", answers.question.name},
+                   {"soil", answers.question.soil.name},
+                   {"steepest_steady_slope", answers.up.angle ? estimate_json(*answers.up.angle) : Json()}};
+  document["end"] = answers.record ? Json(std::string(word_of(answers.record->end))) : Json();
+  document["failure"] = answers.failure ? Json(answers.failure->words) : Json();
+  if (!answers.record) return document;
+  const VehicleDriveRecord& record = *answers.record;
+  document["end_time"] = record.end_time;
+  document["end_time_std_error"] = or_null(answers.end_time_error);
+  document["travelled"] = record.samples.back().travelled;
+  document["travelled_std_error"] = or_null(answers.travelled_error);
+  document["gave_out"] = record.gave_out ? Json(axle_called(answers, *record.gave_out)) : Json();
+  document["at_motors_limit"] = record.at_motors_limit;
+  document["soil_errors"] = Json::array();
+  for (const MovedVehicleDrive& moved : answers.moved)
+    document["soil_errors"].push_back({{"of", moved.title},
+                                       {"value", moved.value},
+                                       {"std_error", moved.sd},
+                                       {"lower", moved_vehicle_json(moved.lower)},
+                                       {"higher", moved_vehicle_json(moved.higher)}});
+  document["happenings"] = Json::array();
+  for (const VehicleDriveHappening& h : record.happenings)
+    document["happenings"].push_back({{"time", h.time},
+                                      {"travelled", h.travelled},
+                                      {"axle", axle_called(answers, h.axle)},
+                                      {"what", std::string(word_of(h.what))}});
+  Json& series = document["samples"] = Json::object();
+  for (const DrivenColumn& column : driven_columns())
+    for (const VehicleDriveSample& s : record.samples) series[column.name].push_back(finite(column.get(s)));
+  document["axles"] = Json::array();
+  for (std::size_t i = 0; i < answers.question.axles.size(); ++i) {
+    Json axle = {{"axle", axle_called(answers, i)}};
+    for (const DrivenAxleColumn& column : driven_axle_columns())
+      for (const VehicleDriveSample& s : record.samples) axle[column.name].push_back(finite(column.get(s.axles[i])));
+    document["axles"].push_back(std::move(axle));
+  }
+  return document;
+}
+
+/// A row for each sample and axle.
+std::string driven_csv(const DrivenAnswers& answers) {
+  std::string text;
+  for (const DrivenColumn& column : driven_columns()) text += std::string(column.name) + ",";
+  text += "axle";
+  for (const DrivenAxleColumn& column : driven_axle_columns()) text += ",wheel_" + std::string(column.name);
+  text += "\n";
+  if (!answers.record) return text;
+  for (const VehicleDriveSample& s : answers.record->samples)
+    for (std::size_t i = 0; i < s.axles.size(); ++i) {
+      for (const DrivenColumn& column : driven_columns()) text += csv_number(column.get(s)) + ",";
+      text += csv_cell(axle_called(answers, i));
+      for (const DrivenAxleColumn& column : driven_axle_columns()) text += "," + csv_number(column.get(s.axles[i]));
+      text += "\n";
+    }
+  return text;
+}
+
+}  // namespace
+
+Report report_on(const DrivenAnswers& answers) {
+  const VehicleCase& question = answers.question;
+  Report report{"Vehicle in time: " + question.name, "Does it start, does it climb, and where does it get stuck?",
+                fmt::format("{} ({:.6g} kg) on {}, from rest", question.name, question.mass, question.soil.name)};
+  if (answers.record) report.add(driven_samples_table(*answers.record), Told::on_terminals);
+  report.add(Sentences(driven_verdicts(answers)));
+  report.add(WarningsHere());
+  if (answers.record) {
+    report.sheet = drawn_once([&answers] { return driven_sheet(answers); });
+    report.add("Against time", Figure(report.sheet, "Of each axle one of its wheels."));
+    report.add("Axle by axle", driven_axles_table(answers));
+    report.add("Where the work went", driven_energy_table(answers.record->samples.back().energy));
+    if (!answers.record->happenings.empty()) report.add("On the way", driven_happenings_table(answers));
+  } else {
+    report.no_answer = "does not stand at its start: " + answers.failure->words;
+  }
+  report.data = [&answers] { return driven_json(answers); };
+  report.csv = [&answers] { return driven_csv(answers); };
+  return report;
+}
+
+}  // namespace soilbin::compare
