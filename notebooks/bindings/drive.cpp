@@ -73,7 +73,8 @@ void bind_record(py::module_& module) {
       .value("stuck", DriveEnd::stuck, "the mean speed has fallen below Drive.stuck_speed")
       .value("buried", DriveEnd::buried, "deeper than the model answers for")
       .value("rolled_back", DriveEnd::rolled_back, "by half a radius behind the start")
-      .value("bed_ends", DriveEnd::bed_ends, "of the virtual soil bin alone");
+      .value("bed_ends", DriveEnd::bed_ends, "of the virtual soil bin alone")
+      .value("tips_over", DriveEnd::tips_over, "of a vehicle alone: one axle carries all of it");
   py::class_<DriveRecord>(module, "DriveRecord", "What came of a drive.")
       .def_readonly("end", &DriveRecord::end, "why it ended")
       .def_readonly("end_time", &DriveRecord::end_time, "[s]")
