@@ -118,6 +118,12 @@ PlateSums sums_of(const PlateCurve& curve) {
 
 double PlateSums::modulus(double exponent) const { return std::exp(ln_p - exponent * ln_z); }
 
+double reference_sinkage(std::span<const PlateSums> curves) {
+  double sum = 0.0;
+  for (const PlateSums& m : curves) sum += m.ln_z;
+  return std::exp(sum / static_cast<double>(curves.size()));
+}
+
 double exponent_of(std::span<const PlateSums> curves, PlateExponent exponent) {
   double zz = 0.0, zp = 0.0, mean = 0.0;
   for (const PlateSums& m : curves) {

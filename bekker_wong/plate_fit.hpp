@@ -66,6 +66,9 @@ struct PlateSums {
 /// not above 0.
 PlateSums sums_of(const PlateCurve& curve);
 
+/// Geometric mean over the curves of the sinkage at which a curve's pressure tells nothing of its n [m].
+double reference_sinkage(std::span<const PlateSums> curves);
+
 /// n of all curves: each one's own, averaged, or one of a common regression.
 double exponent_of(std::span<const PlateSums> curves, PlateExponent exponent);
 

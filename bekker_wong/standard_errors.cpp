@@ -80,7 +80,7 @@ BalanceDerivatives::Channels BalanceDerivatives::by(std::size_t parameter, doubl
     SoilValues soil = soil_;
     soil.*member = value;
     if (member == &SoilValues::exponent) {
-      const double follows = std::pow(soil.reference_sinkage, x - value);  // modulus_factor() of the declared soil
+      const double follows = modulus_factor(soil.reference_sinkage, x, value);
       soil.k_c *= follows, soil.k_phi *= follows;
     }
     return point(soil, effects_, theta_1_, value - x);

@@ -41,6 +41,19 @@ bool are_one(const std::vector<Estimate>& values) {
 
 double square(double x) { return x * x; }
 
+/// Two neighbouring places, in ascending order, and the share of the way from the first one to the second.
+struct Between {
+  std::size_t below, above;
+  double apart, share;
+};
+
+/// place: between the first and the last of the places.
+Between between(const std::vector<double>& places, double place) {
+  const auto above = static_cast<std::size_t>(std::ranges::upper_bound(places, place) - places.begin());
+  const double apart = places[above] - places[above - 1];
+  return {above - 1, above, apart, (place - places[above - 1]) / apart};
+}
+
 /// Values known at places in ascending order, at another place. Formulas: beds.hpp.
 Estimate interpolated(const std::vector<double>& places, const std::vector<Estimate>& values, double place,
                       const Scale& scale) {
@@ -57,9 +70,7 @@ Estimate interpolated(const std::vector<double>& places, const std::vector<Estim
   };
   if (place <= places.front()) return answer(g(0), variance(0) + scatter * (places.front() - place));
   if (place >= places.back()) return answer(g(last), variance(last) + scatter * (place - places.back()));
-  const auto above = static_cast<std::size_t>(std::ranges::upper_bound(places, place) - places.begin());
-  const std::size_t below = above - 1;
-  const double apart = places[above] - places[below], w = (place - places[below]) / apart;
+  const auto [below, above, apart, w] = between(places, place);
   return answer((1 - w) * g(below) + w * g(above),
                 square(1 - w) * variance(below) + square(w) * variance(above) + scatter * apart * w * (1 - w));
 }
@@ -78,9 +89,7 @@ std::optional<double> reference_between(std::span<const SemiEmpiricalSoil> beds,
     return std::nullopt;
   if (place <= places.front()) return beds.front().reference_sinkage;
   if (place >= places.back()) return beds.back().reference_sinkage;
-  const auto above = static_cast<std::size_t>(std::ranges::upper_bound(places, place) - places.begin());
-  const std::size_t below = above - 1;
-  const double w = (place - places[below]) / (places[above] - places[below]);
+  const auto [below, above, apart, w] = between(places, place);
   const double a = square((1 - w) * beds[below].exponent.std_error), b = square(w * beds[above].exponent.std_error);
   const double share = a + b > 0.0 ? b / (a + b) : w;
   return std::exp((1 - share) * std::log(beds[below].reference_sinkage.value_or(1.0)) +

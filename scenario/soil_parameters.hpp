@@ -84,10 +84,13 @@ constexpr const SoilParameter& soil_parameter(std::string_view name) {
   throw std::out_of_range("a soil parameter of no such name: " + std::string(name));
 }
 
-/// By what k_c and k_phi change where n moves from one value to another and the pressure at the soil's reference
-/// sinkage z_0 stays, k z_0^n = constant [-]. 1 for a soil that declares none.
+/// By what k_c and k_phi change where n moves from one value to another and the pressure at the reference sinkage z_0
+/// [m] stays, k z_0^n = constant [-].
+inline double modulus_factor(double reference_sinkage, double from, double to) {
+  return std::pow(reference_sinkage, from - to);
+}
 inline double modulus_factor(const SemiEmpiricalSoil& soil, double from, double to) {
-  return soil.reference_sinkage ? std::pow(*soil.reference_sinkage, from - to) : 1.0;
+  return modulus_factor(soil.reference_sinkage.value_or(1.0), from, to);
 }
 
 /// Moves a value as its error does: k_c and k_phi follow n, and are themselves moved as they are at the declared n.

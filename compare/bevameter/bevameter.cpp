@@ -77,26 +77,17 @@ JanosiFit fit_janosi(const ShearCurve& curve) {
   return at_modulus(curve, std::exp((low + high) / 2));
 }
 
-namespace {
-
-/// Geometric mean over the plates of the sinkage at which a curve's pressure tells nothing of its n [m].
-double reference_of_sets(std::span<const PlateSet> plates) {
-  double sum = 0.0, count = 0.0;
-  for (const PlateSet& set : plates)
-    for (const bekker_wong::PlateCurve& curve : set) sum += bekker_wong::sums_of(curve).ln_z, count += 1.0;
-  return std::exp(sum / count);
-}
-
-}  // namespace
-
 BevameterFit fit_bevameter(std::span<const PlateSet> plates, std::span<const ShearCurve> shear) {
   if (plates.empty() || shear.empty()) throw InputError("a bevameter needs plates and shear tests");
   BevameterFit fit;
   std::vector<double> n, k_c, k_phi, modulus;
-  for (const PlateSet& set : plates)
+  std::vector<bekker_wong::PlateSums> sums;
+  for (const PlateSet& set : plates) {
     n.push_back(bekker_wong::fit_plates(set, bekker_wong::PlateExponent::common).exponent);
+    for (const bekker_wong::PlateCurve& curve : set) sums.push_back(bekker_wong::sums_of(curve));
+  }
   fit.soil.exponent = mean_of(n);
-  fit.soil.reference_sinkage = reference_of_sets(plates);
+  fit.soil.reference_sinkage = bekker_wong::reference_sinkage(sums);
   // k_c and k_phi mean something at one exponent only: all sets at the mean one.
   for (const PlateSet& set : plates) {
     const bekker_wong::PlateFit at = bekker_wong::fit_plates_at(set, fit.soil.exponent.value);

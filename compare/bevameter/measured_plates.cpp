@@ -118,13 +118,6 @@ std::array<double, 3> errors_between_tests(const std::vector<PlateSums>& curves,
   return errors;
 }
 
-/// The geometric mean of the sinkages at which each curve's pressure tells nothing of its n [m].
-double reference_sinkage(const std::vector<PlateSums>& curves) {
-  double sum = 0.0;
-  for (const PlateSums& m : curves) sum += m.ln_z;
-  return std::exp(sum / static_cast<double>(curves.size()));
-}
-
 /// Standard errors of plate_numbers by least squares, n and the moduli fitted together: what readings scatter about the
 /// curves of n and each test's k. Of the moduli where the pressure at the reference sinkage doesn't change with n.
 std::array<double, 3> errors_of_readings(const std::vector<PlateSums>& curves, std::size_t readings, double n) {
@@ -132,7 +125,7 @@ std::array<double, 3> errors_of_readings(const std::vector<PlateSums>& curves, s
   for (const PlateSums& m : curves) squares += std::max(0.0, m.pp - 2 * n * m.zp + n * n * m.zz), zz += m.zz;
   const double variance = squares / std::max(1.0, static_cast<double>(readings - curves.size()) - 1);
   const std::array<std::vector<double>, 3> shares = shares_of_tests(curves, n);
-  const double ln_reference = std::log(reference_sinkage(curves));
+  const double ln_reference = std::log(bekker_wong::reference_sinkage(curves));
   double k_c = 0.0, k_phi = 0.0, k_c_by_n = 0.0, k_phi_by_n = 0.0;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const double of_ln_k = variance / curves[i].weight, by_n = ln_reference - curves[i].ln_z;
@@ -336,7 +329,7 @@ MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, con
   std::vector<PlateSums> sums = all_sums(curves);
   take_tests_apart(plates, curves, sums, fit);
   fit.radii = radii_of(sums);
-  fit.reference_sinkage = reference_sinkage(sums);
+  fit.reference_sinkage = bekker_wong::reference_sinkage(sums);
   const double n = bekker_wong::exponent_of(sums, bekker_wong::PlateExponent::common);
   add_plates(sums, n, fit);
   const std::vector<PlateSums> low = half_of(curves, true), high = half_of(curves, false);
