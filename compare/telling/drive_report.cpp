@@ -14,6 +14,7 @@
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/drive_columns.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/drive_way.hpp"
 #include "scenario/nearest_word.hpp"
@@ -24,16 +25,6 @@ namespace {
 
 using bekker_wong::DriveSample;
 using bekker_wong::EnergyLedger;
-
-/// Samples of a drive as columns of a file and as rows of a table, for any kind of sample: those of the analytic wheel,
-/// those of its grains.
-template <class Sample>
-struct DriveColumn {
-  const char* name;
-  std::function<double(const Sample&)> get;
-};
-template <class Sample>
-using DriveColumns = std::vector<DriveColumn<Sample>>;
 
 /// What every kind of sample has: `of_its_own` stand behind the slip, `of_its_energy` at the end.
 template <class Sample>
@@ -61,17 +52,6 @@ DriveColumns<Sample> drive_columns(const DriveColumns<Sample>& of_its_own, const
   };
   all.insert(all.end(), more.begin(), more.end());
   all.insert(all.end(), of_its_energy.begin(), of_its_energy.end());
-  return all;
-}
-
-/// A list of values for each column.
-template <class Sample>
-Json columns_json(const DriveColumns<Sample>& columns, const std::vector<Sample>& samples) {
-  Json all = Json::object();
-  for (const DriveColumn<Sample>& column : columns) {
-    Json& values = all[column.name] = Json::array();
-    for (const Sample& sample : samples) values.push_back(finite(column.get(sample)));
-  }
   return all;
 }
 

@@ -7,6 +7,7 @@
 
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/telling/drive_columns.hpp"
 #include "compare/telling/reports.hpp"
 #include "compare/vehicle/driven_answers.hpp"
 #include "scenario/csv.hpp"
@@ -173,14 +174,9 @@ Sheet driven_sheet(const DrivenAnswers& answers) {
   return sheet;
 }
 
-struct DrivenColumn {
-  const char* name;
-  std::function<double(const VehicleDriveSample&)> get;
-};
-
-const std::vector<DrivenColumn>& driven_columns() {
+const DriveColumns<VehicleDriveSample>& driven_columns() {
   using S = VehicleDriveSample;
-  static const std::vector<DrivenColumn> all = {
+  static const DriveColumns<S> all = {
       {"time_s", [](const S& s) { return s.time; }},
       {"travelled_m", [](const S& s) { return s.travelled; }},
       {"speed_m_s", [](const S& s) { return s.speed; }},
@@ -204,14 +200,9 @@ const std::vector<DrivenColumn>& driven_columns() {
   return all;
 }
 
-struct DrivenAxleColumn {
-  const char* name;
-  std::function<double(const DrivenAxle&)> get;
-};
-
-const std::vector<DrivenAxleColumn>& driven_axle_columns() {
+const DriveColumns<DrivenAxle>& driven_axle_columns() {
   using A = DrivenAxle;
-  static const std::vector<DrivenAxleColumn> all = {
+  static const DriveColumns<A> all = {
       {"normal_load_N", [](const A& a) { return a.normal_load; }},
       {"rim_speed_m_s", [](const A& a) { return a.rim_speed; }},
       {"slip", [](const A& a) { return a.slip.value_or(not_a_number); }},
@@ -259,14 +250,13 @@ Json driven_json(const DrivenAnswers& answers) {
                                       {"travelled", h.travelled},
                                       {"axle", axle_called(answers, h.axle)},
                                       {"what", std::string(word_of(h.what))}});
-  Json& series = document["samples"] = Json::object();
-  for (const DrivenColumn& column : driven_columns())
-    for (const VehicleDriveSample& s : record.samples) series[column.name].push_back(finite(column.get(s)));
+  document["samples"] = columns_json(driven_columns(), record.samples);
   document["axles"] = Json::array();
   for (std::size_t i = 0; i < answers.question.axles.size(); ++i) {
+    std::vector<DrivenAxle> sampled;
+    for (const VehicleDriveSample& s : record.samples) sampled.push_back(s.axles[i]);
     Json axle = {{"axle", axle_called(answers, i)}};
-    for (const DrivenAxleColumn& column : driven_axle_columns())
-      for (const VehicleDriveSample& s : record.samples) axle[column.name].push_back(finite(column.get(s.axles[i])));
+    axle.update(columns_json(driven_axle_columns(), sampled));
     document["axles"].push_back(std::move(axle));
   }
   return document;
@@ -275,16 +265,17 @@ Json driven_json(const DrivenAnswers& answers) {
 /// A row for each sample and axle.
 std::string driven_csv(const DrivenAnswers& answers) {
   std::string text;
-  for (const DrivenColumn& column : driven_columns()) text += std::string(column.name) + ",";
+  for (const DriveColumn<VehicleDriveSample>& column : driven_columns()) text += std::string(column.name) + ",";
   text += "axle";
-  for (const DrivenAxleColumn& column : driven_axle_columns()) text += ",wheel_" + std::string(column.name);
+  for (const DriveColumn<DrivenAxle>& column : driven_axle_columns()) text += ",wheel_" + std::string(column.name);
   text += "\n";
   if (!answers.record) return text;
   for (const VehicleDriveSample& s : answers.record->samples)
     for (std::size_t i = 0; i < s.axles.size(); ++i) {
-      for (const DrivenColumn& column : driven_columns()) text += csv_number(column.get(s)) + ",";
+      for (const DriveColumn<VehicleDriveSample>& column : driven_columns()) text += csv_number(column.get(s)) + ",";
       text += csv_cell(axle_called(answers, i));
-      for (const DrivenAxleColumn& column : driven_axle_columns()) text += "," + csv_number(column.get(s.axles[i]));
+      for (const DriveColumn<DrivenAxle>& column : driven_axle_columns())
+        text += "," + csv_number(column.get(s.axles[i]));
       text += "\n";
     }
   return text;

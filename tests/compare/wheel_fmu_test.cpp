@@ -16,6 +16,7 @@
 #include <set>
 
 #include "bekker_wong/transient/driving.hpp"
+#include "compare/rover_fixture.hpp"
 #include "compare/telling/export_reports.hpp"
 #include "scenario/errors.hpp"
 
@@ -26,12 +27,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 Case rover_grid() {
-  const Library library({SOILBIN_SOURCE_DIR "/cases"});
-  Case question;
-  question.name = "rover";
-  question.scenario.tire = find_tire("rover-wheel", library);
-  question.scenario.soil = find_soil("dry-sand", library);
-  question.study.models = {{ModelKind::bekker_wong, {}, "bekker_wong"}};
+  Case question = rover_on_dry_sand();
   for (const double load : {50.0, 65.0, 80.0})
     for (int percent = 0; percent <= 90; percent += 2)
       question.study.conditions.push_back({.load = load, .slip = percent / 100.0});

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "compare/rover_fixture.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
 
@@ -15,12 +16,7 @@ namespace soilbin::compare {
 namespace {
 
 Case rover_question() {
-  const Library library({SOILBIN_SOURCE_DIR "/cases"});
-  Case question;
-  question.name = "rover";
-  question.scenario.tire = find_tire("rover-wheel", library);
-  question.scenario.soil = find_soil("dry-sand", library);
-  question.study.models = {{ModelKind::bekker_wong, {}, "bekker_wong"}};
+  Case question = rover_on_dry_sand();
   question.study.conditions = {{.load = 65.0, .slip = 0.2}};
   return question;
 }
