@@ -117,7 +117,9 @@ def amount(value, unit):
 
 def page(catalogue):
     relative = lambda name: Path(*[".."] * 1, next(DOCS.rglob(name)).relative_to(DOCS)).as_posix()
-    said = dict(re.findall(r"^\| (\w+) \| (.+?) \|$", next(DOCS.rglob("campaigns.md")).read_text(encoding="utf-8"), flags=re.M))
+    said = {}  # what an effect is, by the headings of the reference
+    for name in ("effects.md", "effects-bed-and-measurement.md"):
+        said |= dict(re.findall(r"^## (\w+): (.+)$", (DOCS / "reference" / name).read_text(encoding="utf-8"), flags=re.M))
     counts = ", ".join(f"{sum(form['provenance'] == whose for form in catalogue)} {name}"
                        for whose, name in (("published", "published"), ("after a source", "after a source"), ("ours", "ours")))
     lines = [HEAD.format(effects=relative("effects-bed-and-measurement.md").replace("effects-bed-and-measurement", "effects"),
