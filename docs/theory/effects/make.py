@@ -25,8 +25,8 @@ that. What trace each effect leaves in measurements: [effects.md]({effects}) and
 [effects-bed-and-measurement.md]({bed}).
 
 - An effect may have several **forms**, one equation each. The first is the default.
-- **Source**: *published* is the author's own equation; *after a source* has its shape, as others quote it; *ours* is
-  stated here for the first time. They count {counts}.
+- **Source**, behind the equation: *published* is the author's own equation; *after* a source has its shape, as others
+  quote it; *ours* is stated here for the first time. They count {counts}.
 - Parameters: name = default (range). With the first one at 0 the form is the base model, to the bit.
 - Sketches, not to scale: the soil is brown, what the effect adds orange ([sketches.py](effects/sketches.py)).
 - Symbols: [the list](symbols.md). A subscript 0 is the value without the effect, $z_b$ the sinkage of the balance, $d$
@@ -131,11 +131,10 @@ def page(catalogue):
             lines += ["", f"## {last.replace('_', ' ')}", "", f"`{last}`: {said.get(last, '')}."]
             if (HERE / f"{last}.svg").is_file():
                 lines += ["", f"![{last.replace('_', ' ')}, a sketch](effects/{last}.svg)"]
-        whose = "published: " if form["provenance"] == "published" else ""
-        lines += ["", f"**{form['form']}**: {tex(form['equation'])}", ""]
+        source = ("published: " if form["provenance"] == "published" else "") + form["source"].replace("stated", "ours", 1)
+        lines += ["", f"**{form['form']}**: {tex(form['equation'])}. {source[0].upper()}{source[1:]}."]
         lines += [f"- `{p['name']}` = {amount(p['default'], p['unit'])} ({amount(p['lower'], p['unit'])} .. {amount(p['upper'], p['unit'])}): "
                   f"{p['meaning']}" for p in form["parameters"]]
-        lines += [f"- {whose}{form['source'].replace('stated', 'ours', 1)}"]
     return "\n".join(lines) + "\n"
 
 
