@@ -82,16 +82,17 @@ AnnulusRun turn_ring(const SettledBed& bed, double stress, const AnnulusSettings
   work.begin("turning");
   for (int k = 0; k < s.samples; ++k) {
     AnnulusSample sample;
+    const double before = simulation.body(index).position.z;
     double moment = 0, force = 0;
     for (std::int64_t i = 0; i < steps; ++i) {
       work.step(simulation);
       moment -= simulation.body(index).torque.z / static_cast<double>(steps);
       force += simulation.body(index).force.z / static_cast<double>(steps);
     }
-    sample.displacement = static_cast<double>((k + 1) * steps) * dt * run.speed;
+    sample.displacement = (k + 0.5) * static_cast<double>(steps) * dt * run.speed;
     sample.shear_stress = 3 * moment / (2 * pi * (outer * outer * outer - inner * inner * inner));
     sample.normal_stress = force / area;
-    sample.sinkage = rest - simulation.body(index).position.z;
+    sample.sinkage = rest - (before + simulation.body(index).position.z) / 2;
     run.curve.push_back(sample);
   }
   return run;

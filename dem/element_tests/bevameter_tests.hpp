@@ -65,10 +65,10 @@ struct AnnulusSettings {
 
 /// Means over one sample's steps.
 struct AnnulusSample {
-  double displacement = 0;   ///< j, at the mean radius, at the sample's end [m]
+  double displacement = 0;   ///< j, at the mean radius, in the sample's middle [m]
   double shear_stress = 0;   ///< 3 M/(2 pi (r_o^3 - r_i^3)) [Pa]
   double normal_stress = 0;  ///< [Pa]
-  double sinkage = 0;        ///< since the turning began, at the sample's end [m]
+  double sinkage = 0;        ///< since the turning began, in the sample's middle [m]
 };
 
 struct AnnulusRun {

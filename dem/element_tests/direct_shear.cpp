@@ -119,17 +119,16 @@ ShearSample ShearBox::sample(std::int64_t steps, DirectShearRun& into) {
     on_lower += each * body(lower_).force;
     on_rest += each * (body(floor_).force + body(sides_).force);
   }
-  const double moved = body(upper_).position.x;
   const double shear = -(on_lid.x + on_upper.x), normal = on_lid.z + on_lower.z;
-  const double middle = moved - 0.5 * static_cast<double>(steps) * dt * into.speed;
+  const double middle = body(upper_).position.x - 0.5 * static_cast<double>(steps) * dt * into.speed;
   const double area = size_.width * (size_.length - middle);
   into.work_of_stress +=
       shear * static_cast<double>(steps) * dt * into.speed - on_lid.z * (body(lid_).position.z - lid_from.z);
   imbalance_.push_back((on_lid + on_upper + on_lower + on_rest).x / shear);
-  return {.displacement = moved,
+  return {.displacement = middle,
           .shear_stress = shear / area,
           .normal_stress = normal / area,
-          .dilation = body(lid_).position.z - lid_before_};
+          .dilation = (lid_from.z + body(lid_).position.z) / 2 - lid_before_};
 }
 
 DirectShearRun ShearBox::run() {

@@ -38,10 +38,10 @@ struct DirectShearSettings {
 
 /// Means over one sample's steps.
 struct ShearSample {
-  double displacement = 0;   ///< of the upper half, at the sample's end [m]
+  double displacement = 0;   ///< of the upper half, in the sample's middle [m]
   double shear_stress = 0;   ///< [Pa]
   double normal_stress = 0;  ///< N/A on what is left of the plane of shear [Pa]
-  double dilation = 0;       ///< rise of the lid since the shear began, at the sample's end [m]
+  double dilation = 0;       ///< rise of the lid since the shear began, in the sample's middle [m]
 };
 
 /// One specimen under one stress.

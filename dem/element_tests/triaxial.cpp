@@ -171,8 +171,8 @@ void PressedSpecimen::compress(TriaxialRun& run) {
     }
     const double middle = std::sqrt(volume_before * side(0) * side(1) * side(2));
     for (int axis = 0; axis < 3; ++axis) run.work_of_stress += mean[axis] * std::log(from[axis] / side(axis)) * middle;
-    sample.strain = std::log(height / side(2));
-    sample.volumetric = std::log(volume / (side(0) * side(1) * side(2)));
+    sample.strain = std::log(height / std::sqrt(from[2] * side(2)));
+    sample.volumetric = std::log(volume / middle);
     sample.lateral_x = mean[0], sample.lateral_y = mean[1], sample.axial = mean[2];
     lateral[0] += mean[0] / settings_.samples, lateral[1] += mean[1] / settings_.samples;
     run.curve.push_back(sample);

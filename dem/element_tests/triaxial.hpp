@@ -26,6 +26,7 @@ struct TriaxialSettings {
   bool ledger = false;
 };
 
+/// Stresses are means over a sample's steps; strains are those in its middle.
 struct TriaxialSample {
   double strain = 0;                               ///< axial, logarithmic, compression positive
   double volumetric = 0;                           ///< -ln(V/V_0): negative where it dilates

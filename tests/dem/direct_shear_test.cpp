@@ -74,9 +74,10 @@ TEST_F(SlowDirectShear, HoldsTheNormalStressOnTheShrinkingPlane) {
   const double d = mean_diameter(test::soft_soil());
   double work = 0, x = 0, z = 0;
   for (const ShearSample& sample : told.curve) {
-    const double area = box.width * d * (box.length * d - (x + sample.displacement) / 2);
-    work += area * (sample.shear_stress * (sample.displacement - x) - sample.normal_stress * (sample.dilation - z));
-    x = sample.displacement, z = sample.dilation;
+    const double area = box.width * d * (box.length * d - sample.displacement);
+    const double x_end = 2 * sample.displacement - x, z_end = 2 * sample.dilation - z;  // a sample tells its middle
+    work += area * (sample.shear_stress * (x_end - x) - sample.normal_stress * (z_end - z));
+    x = x_end, z = z_end;
   }
   EXPECT_NEAR(work / told.work, 1, 0.02);
 }
