@@ -12,7 +12,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-FLOORS = {"scenario", "bekker_wong", "dem", "compare", "cli"}
+FLOORS = {"scenario", "bekker_wong", "resistive_force", "cone_index", "dem", "compare", "cli"}
 
 
 def checks(build):
