@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <set>
 #include <utility>
 
 #include "bekker_wong/model.hpp"
@@ -16,6 +15,7 @@
 #include "compare/doubts/declared_doubts.hpp"
 #include "compare/telling/reports.hpp"
 #include "compare/vehicle/driven_answers.hpp"
+#include "compare/vehicle/vehicle_doubts.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -28,27 +28,6 @@ struct VehicleOptions {
   DescribedFlags<compare::VehicleCondition> condition;
   OutputFlags outputs;
 };
-
-/// What there is to doubt: notes, then soil, tires and the answers of each axle's first wheel.
-compare::Doubts doubts_about(const compare::VehicleAnswers& answers, compare::Doubts notes) {
-  std::set<std::size_t> axles;
-  for (std::size_t i = 0; i < answers.wheels.size(); ++i) {
-    const compare::VehicleWheel& wheel = answers.wheels[i];
-    if (!answers.steady || answers.steady->wheels[i].lifted || !axles.insert(wheel.axle).second) continue;
-    const TractionResult& result = answers.steady->wheels[i].result;
-    Case question;
-    question.name = wheel.name, question.scenario = wheel.scenario;
-    question.scenario.effects.clear();
-    question.study.models.emplace_back().effects = wheel.scenario.effects;
-    label_models(question.study.models);
-    question.study.conditions = {result.at};
-    append(notes, joined_doubts({}, question, {{question.study.models.front(), {{result.at, result, ""}}}}));
-  }
-  std::erase_if(notes, [](const compare::Doubt& doubt) {  // wheels in front have no rut, and the speed makes the power
-    return doubt.kind == compare::DoubtKind::effect_without_pass || doubt.kind == compare::DoubtKind::speed_ignored;
-  });
-  return once_each(notes);
-}
 
 /// A flag that the file's own drive would leave unread is refused.
 void refuse_what_the_drive_says(const VehicleOptions& options, const compare::VehicleDrive& drive) {
@@ -88,7 +67,7 @@ int vehicle(const VehicleOptions& options, const Session& session) {
   if (!options.map.empty())
     answers.map = compare::go_map(question, wheels, model,
                                   {.samples = static_cast<int>(options.samples), .progress = shown_progress()});
-  const compare::Doubts doubts = doubts_about(answers, std::move(notes));
+  const compare::Doubts doubts = compare::doubts_about(answers, std::move(notes));
   Outputs outputs = publish(compare::report_on(answers), options.outputs, doubts, session);
   outputs.file(options.map, [&] { return compare::csv_of(*answers.map); });
   return outputs.status(done);

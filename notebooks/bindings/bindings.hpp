@@ -38,6 +38,7 @@ void bind_comparison(py::module_& module);
 void bind_recorded(py::module_& module);
 void bind_calibration(py::module_& module);
 void bind_exports(py::module_& module);
+void bind_vehicle(py::module_& module);
 
 /// Where cases lie: $SOILBIN_CASES, the installation's, the source tree's.
 std::vector<std::filesystem::path> cases_folders();

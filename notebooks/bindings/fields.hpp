@@ -11,6 +11,7 @@
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/number_check.hpp"
+#include "scenario/yes_no.hpp"
 
 namespace soilbin::python {
 
@@ -81,6 +82,12 @@ class FieldsOf {
   template <class E>
   void choice(const char* key, E T::*member, Need need, const char* meaning) {
     plain(key, member, need, meaning);
+  }
+  void choice(const char* key, YesNo T::*member, Need need, const char* meaning) {
+    note(key, need);
+    to_.def_property(
+        key, [member](const T& self) { return self.*member == YesNo::yes; },
+        [member](T& self, bool yes) { self.*member = yes ? YesNo::yes : YesNo::no; }, meaning);
   }
   template <class U>
   void group(const char* key, U T::*member, Need need, const char* meaning) {

@@ -132,6 +132,7 @@ PYBIND11_MODULE(_soilbin, module) {
   bind_comparison(module);
   bind_calibration(module);
   bind_exports(module);
+  bind_vehicle(module);
   refuse_objects_without_value(module);
   py::module_::import("atexit").attr("register")(py::cpp_function(&end_unlocked_work));
 }

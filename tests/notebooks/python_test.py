@@ -848,6 +848,74 @@ class Exports(unittest.TestCase):
         self.assertEqual(sorted(file.name for file in self.folder.iterdir()), ["map.png", "rover.fmu", "rover.h", "scm.json"])
 
 
+class Vehicles(unittest.TestCase):
+    FILE = str(Path(__file__).parents[2] / "cases/vehicles/rover.yaml")
+
+    def rover(self, slope=0.0):
+        rover = soilbin.read_vehicle(self.FILE)
+        rover.condition.slope = math.radians(slope)
+        return rover
+
+    def test_a_vehicle_is_the_commands(self):
+        answer = soilbin.vehicle_on_soil(self.rover(5))
+        known = command("vehicle", self.FILE, "--slope", "5deg")
+        self.assertEqual(answer["steepest"], known["steepest"])
+        self.assertEqual(answer["pulls"], known["pulls"])
+        frame = soilbin.wheels_frame(answer)
+        self.assertEqual(list(frame.wheel), ["front left", "front right", "rear left", "rear right"])
+        self.assertEqual(list(frame["sinkage.value"]), [w["sinkage"]["value"] for w in known["steady"]["wheels"]])
+
+    def test_one_that_does_not_travel_says_why(self):
+        answer = soilbin.vehicle_on_soil(self.rover(40))
+        self.assertEqual(answer["failure"]["why"], "pull")
+        with self.assertRaisesRegex(ValueError, "does not travel: at every slip"):
+            soilbin.wheels_frame(answer)
+
+    def test_a_vehicle_of_values_is_the_files(self):
+        wheel = soilbin.Tire(name="rover 0.5 m", radius=0.25, width=0.2)
+        made = soilbin.Vehicle(
+            name="rover", mass=73.4, centre_of_gravity=soilbin.VehiclePoint(x=0.6, z=0.6),
+            drive_line=soilbin.DriveLine.motors, soil="grc-1", condition=soilbin.VehicleCondition(speed=0.1),
+            axles=[soilbin.VehicleAxle(name="front", x=1.2, track=1.3, steered=True, tire=wheel),
+                   soilbin.VehicleAxle(name="rear", x=0.0, track=1.3, tire=wheel)])
+        self.assertEqual(soilbin.vehicle_on_soil(made)["steady"], soilbin.vehicle_on_soil(self.rover())["steady"])
+        self.assertIs(made.axles[0].steered, True)
+
+    def test_a_drive_is_the_commands(self):
+        rover = self.rover(5)
+        rover.drive = soilbin.VehicleDrive(duration=10.0)
+        drive = soilbin.drive_vehicle(rover, 100)
+        self.assertEqual(len(drive["samples"]["time_s"]), 101)
+        self.assertLess(drive["travelled"], 0.1 * 10.0)
+        known = command("vehicle", self.FILE, "--drive", "--slope", "5deg")
+        self.assertEqual(soilbin.drive_vehicle(self.rover(5))["travelled"], known["travelled"])
+
+    def test_a_map_is_told_with_its_progress(self):
+        rover, shares = self.rover(), []
+        answer = soilbin.vehicle_on_soil(rover, map_samples=2, progress=lambda done, stage: shares.append(done))
+        chance = answer["map"]["chance"]
+        self.assertEqual(chance[0][0]["value"], 1.0)
+        self.assertTrue(shares)
+
+    def test_what_makes_no_sense_is_refused(self):
+        with self.assertRaisesRegex(soilbin.InputError, "has no tire"):
+            soilbin.vehicle_on_soil(soilbin.Vehicle(name="bare", mass=100.0, soil="dry-sand",
+                                                    centre_of_gravity=soilbin.VehiclePoint(z=0.5),
+                                                    axles=[soilbin.VehicleAxle(x=0.0, track=1.0)]))
+        with self.assertRaisesRegex(soilbin.InputError, "vehicle.yaml:2:1"):
+            soilbin.parse_vehicle("format: soilbin-vehicle-case/1\nweight: 3 t\n")
+        with self.assertRaisesRegex(TypeError, "expected a Vehicle"):
+            soilbin.drive_vehicle("truck.yaml")
+
+    def test_the_guides_python_runs(self):
+        page = (Path(__file__).parents[2] / "docs/guide/vehicle.md").read_text()
+        blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+        self.assertTrue(blocks)
+        with contextlib.chdir(Path(__file__).parents[2]):
+            for block in blocks:
+                exec(block, {})  # as a reader would
+
+
 class Loop(unittest.TestCase):
     def test_it_says_what_the_command_says(self):
         known = command("loop", "made-lesson")

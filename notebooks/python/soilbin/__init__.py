@@ -27,6 +27,7 @@ from soilbin._soilbin import (
     ContactPair,
     Controller,
     Drive,
+    DriveLine,
     EffectChoice,
     EffectForm,
     Estimate,
@@ -50,6 +51,13 @@ from soilbin._soilbin import (
     Soil,
     Tire,
     TractionResult,
+    Vehicle,
+    VehicleAxle,
+    VehicleCondition,
+    VehicleDrive,
+    VehicleHitch,
+    VehiclePoint,
+    VehicleStop,
     Waypoint,
     __version__,
     at_density,
@@ -61,18 +69,23 @@ from soilbin._soilbin import (
     find_tire,
     in_words,
     parse_case,
+    parse_vehicle,
+    read_vehicle,
     write_soil,
     write_tire,
 )
 from soilbin.exports import export_fmi, export_gazebo, export_scm, export_table
 from soilbin.questions import SoilbinWarning, conditions, estimate, names, run_study, sweep
+from soilbin.vehicles import drive_vehicle, vehicle_on_soil, wheels_frame
 
 __all__ = [
-    "Bin", "Case", "ConeIndex", "ContactPair", "Controller", "Drive", "EffectChoice", "EffectForm", "Estimate", "ForceFrame",
+    "Bin", "Case", "ConeIndex", "ContactPair", "Controller", "Drive", "DriveLine", "EffectChoice", "EffectForm", "Estimate", "ForceFrame",
     "GranularSoil", "InputError", "LugPattern", "Lugs", "Model", "ModelKind", "NoSolution", "OperatingCondition",
     "ResistiveForce", "ResistiveForceSoil", "RollingResistance", "RunStopped", "Scenario", "SemiEmpiricalSoil", "Shelf", "SlipBy", "Soil", "SoilbinWarning",
-    "Tire", "TractionResult", "Waypoint", "__version__", "at_density",
+    "Tire", "TractionResult", "Vehicle", "VehicleAxle", "VehicleCondition", "VehicleDrive", "VehicleHitch",
+    "VehiclePoint", "VehicleStop", "Waypoint", "__version__", "at_density",
     "bekker_wong", "cases_folders", "compare", "conditions", "dem",
-    "doubts", "effect_catalogue", "estimate", "export_fmi", "export_gazebo", "export_scm", "export_table", "find_case",
-    "find_soil", "find_tire", "in_words", "names", "parse_case", "run_study", "sweep", "write_soil", "write_tire",
+    "doubts", "drive_vehicle", "effect_catalogue", "estimate", "export_fmi", "export_gazebo", "export_scm", "export_table", "find_case",
+    "find_soil", "find_tire", "in_words", "names", "parse_case", "parse_vehicle", "read_vehicle", "run_study", "sweep",
+    "vehicle_on_soil", "wheels_frame", "write_soil", "write_tire",
 ]

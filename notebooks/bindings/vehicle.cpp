@@ -1,0 +1,129 @@
+// compare/vehicle: a vehicle on soil. Answers are the documents of the command's --json.
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "bekker_wong/model.hpp"
+#include "compare/doubts/doubts.hpp"
+#include "compare/report/json_fields.hpp"
+#include "compare/telling/reports.hpp"
+#include "compare/vehicle/driven_answers.hpp"
+#include "compare/vehicle/vehicle_doubts.hpp"
+#include "notebooks/bindings/fields.hpp"
+#include "notebooks/bindings/scenario.hpp"
+#include "scenario/yaml_node.hpp"
+
+namespace soilbin::python {
+namespace {
+
+using compare::Doubts;
+using compare::VehicleAxle;
+using compare::VehicleCase;
+
+/// A document as JSON, and what the command would warn of.
+using Told = std::pair<std::string, std::vector<std::string>>;
+
+std::vector<compare::VehicleWheel> wheels_with_tires(const VehicleCase& vehicle) {
+  if (vehicle.axles.empty()) throw InputError("the vehicle has no axles");
+  for (std::size_t i = 0; i < vehicle.axles.size(); ++i)
+    if (!(vehicle.axles[i].tire.radius > 0)) throw InputError(fmt::format("axles[{}] has no tire", i));
+  return wheels_of(vehicle);
+}
+
+bekker_wong::BekkerWong wheel_model() { return bekker_wong::BekkerWong({.errors = false, .patch = false}); }
+
+Told vehicle_on_soil(const VehicleCase& question, int map_samples, bool rigid, bool no_lugs,
+                     const py::object& progress) {
+  Watch watch(progress);
+  return unlocked([&]() -> Told {
+    std::vector<compare::VehicleWheel> wheels = wheels_with_tires(question);
+    Doubts notes = declare_tires(wheels, {.pressure = rigid, .lugs = no_lugs});
+    const bekker_wong::BekkerWong model = wheel_model();
+    compare::VehicleAnswers answers = compare::answers_of(question, wheels, model);
+    if (map_samples > 0)
+      answers.map = compare::go_map(question, wheels, model, {.samples = map_samples, .progress = watch.of_steps()});
+    return {compare::json_text(report_on(answers).data()), compare::in_words(doubts_about(answers, std::move(notes)))};
+  });
+}
+
+Told driven(const VehicleCase& question, int samples, bool rigid, bool no_lugs, const py::object& progress) {
+  if (samples < 1) throw InputError("samples: 1 or more");
+  Watch watch(progress);
+  return unlocked([&]() -> Told {
+    std::vector<compare::VehicleWheel> wheels = wheels_with_tires(question);
+    Doubts notes = declare_tires(wheels, {.pressure = rigid, .lugs = no_lugs});
+    const compare::DrivenAnswers answers = compare::driven_answers(
+        question, wheels, wheel_model(), samples, [&watch](double time, double duration) { watch(time / duration); });
+    append(notes, compare::doubts(question.soil));
+    return {compare::json_text(report_on(answers).data()), compare::in_words(once_each(notes))};
+  });
+}
+
+void bind_parts(py::module_& module) {
+  bind_words<compare::DriveLine>(module, "DriveLine", "How the engine's rotation reaches the driven wheels.");
+  py::class_<compare::VehiclePoint> point(module, "VehiclePoint",
+                                          "A point of the vehicle: x forward, y to the left, z up from the ground.");
+  described(point);
+  py::class_<VehicleAxle> axle(module, "VehicleAxle", "Two wheels beside each other, or one without a track.");
+  axle.def_property(
+      "tire", [](const VehicleAxle& a) { return a.tire; },
+      [](VehicleAxle& a, const std::variant<Tire, std::string>& tire) {
+        const auto* name = std::get_if<std::string>(&tire);
+        a.tire = name != nullptr ? find_tire(*name, cases_library()) : std::get<Tire>(tire);
+      },
+      "a Tire, or its name in the library; assign another one to change it");
+  described(axle, {"tire"});
+  py::class_<compare::VehicleHitch> hitch(module, "VehicleHitch", "Where what is pulled is hooked on.");
+  described(hitch);
+  py::class_<compare::VehicleCondition> condition(module, "VehicleCondition",
+                                                  "Where the vehicle is and what it is to do.");
+  described(condition);
+  py::class_<compare::VehicleStop> stop(module, "VehicleStop", "A stop on the way, and the start from it.");
+  described(stop);
+  py::class_<compare::VehicleDrive> drive(module, "VehicleDrive", "How the vehicle is driven in time, from rest.");
+  described(drive);
+}
+
+void bind_case(py::module_& module) {
+  py::class_<VehicleCase> vehicle(module, "Vehicle", "A vehicle on a soil, in a condition (docs/guide/vehicle.md).");
+  vehicle.def_readwrite("axles", &VehicleCase::axles, "VehicleAxle each; assign a new list to change them");
+  vehicle.def_property(
+      "soil", [](const VehicleCase& v) { return v.soil; },
+      [](VehicleCase& v, const std::variant<Soil, std::string>& soil) {
+        const auto* name = std::get_if<std::string>(&soil);
+        v.soil = name != nullptr ? find_soil(*name, cases_library()) : std::get<Soil>(soil);
+      },
+      "a Soil, or its name in the library; assign another one to change it");
+  vehicle.def_property(
+      "effects", [](const VehicleCase& v) { return v.effects; },
+      [](VehicleCase& v, const std::vector<EffectName>& effects) { v.effects = effects_of(effects); },
+      "ids or EffectChoice; assign a new list to change them");
+  vehicle.def_readwrite("drive", &VehicleCase::drive, "how drive_vehicle drives it");
+  described(vehicle, {"axles", "soil", "effects", "drive"});
+}
+
+}  // namespace
+
+void bind_vehicle(py::module_& module) {
+  bind_parts(module);
+  bind_case(module);
+  module.def(
+      "parse_vehicle",
+      [](const std::string& text, const std::string& file) {
+        return compare::parse_vehicle_case(make_source_text(text, file), cases_library(), effect_vocabulary());
+      },
+      py::arg("text"), py::arg("file") = "vehicle.yaml",
+      "A vehicle from its YAML; `file` is what errors name. Raises InputError with line and column.");
+  module.def(
+      "read_vehicle",
+      [](const std::filesystem::path& file) {
+        return compare::parse_vehicle_case(read_source_text(file, largest_yaml), cases_library(), effect_vocabulary());
+      },
+      py::arg("file"), "A vehicle of a YAML file. Raises InputError with file, line and column.");
+  module.def("vehicle_on_soil", &vehicle_on_soil, py::arg("vehicle"), py::arg("map_samples"), py::arg("rigid"),
+             py::arg("no_lugs"), py::arg("progress"), "Document and warnings; see soilbin.vehicle_on_soil.");
+  module.def("drive_vehicle", &driven, py::arg("vehicle"), py::arg("samples"), py::arg("rigid"), py::arg("no_lugs"),
+             py::arg("progress"), "Document and warnings; see soilbin.drive_vehicle.");
+}
+
+}  // namespace soilbin::python

@@ -1,0 +1,55 @@
+"""A vehicle on soil: does it go, how steep, which wheel gives out (docs/guide/vehicle.md)."""
+from __future__ import annotations
+
+from typing import Any
+
+import pandas as pd
+
+from soilbin import _soilbin
+from soilbin._soilbin import Vehicle
+from soilbin.arguments import worded
+from soilbin.exports import document
+from soilbin.progress import Progress, told_to
+
+
+def checked_vehicle(vehicle: Vehicle) -> Vehicle:
+    """The vehicle; a TypeError in plain words where it is something else."""
+    if not isinstance(vehicle, Vehicle):
+        raise TypeError(f"vehicle: expected a Vehicle, such as soilbin.read_vehicle('truck.yaml'), not {vehicle!r}")
+    return vehicle
+
+
+@worded
+def vehicle_on_soil(vehicle: Vehicle, *, map_samples: int = 0, rigid: bool = False, no_lugs: bool = False,
+                    progress: Progress = "shown") -> dict[str, Any]:
+    """Steady travel in the vehicle's condition, pull against slip, steepest slopes, each with its standard error.
+
+    map_samples: soils that are drawn for the chance to go over slope and heading (`map`); 0: no map, which takes a
+    minute or two. rigid, no_lugs: as in estimate. Gives the document soilbin-vehicle-answer/1, as `soilbin vehicle --json` does;
+    SI and radians. Where the vehicle does not travel, `steady` is None and `failure` says why. Raises InputError for
+    a soil without semi-empirical values. Warns (SoilbinWarning) as the command.
+
+        truck = soilbin.read_vehicle("cases/vehicles/truck.yaml")
+        truck.condition.slope = math.radians(5)
+        soilbin.wheels_frame(soilbin.vehicle_on_soil(truck))
+    """
+    return document(_soilbin.vehicle_on_soil(checked_vehicle(vehicle), map_samples, rigid, no_lugs, told_to(progress)))
+
+
+@worded
+def drive_vehicle(vehicle: Vehicle, samples: int = 400, *, rigid: bool = False, no_lugs: bool = False,
+                  progress: Progress = "shown") -> dict[str, Any]:
+    """Drives the vehicle in time from rest, straight up or down, as its `drive` says.
+
+    samples: intervals over the drive's whole duration. Gives the document soilbin-vehicle-drive/1, as
+    `soilbin vehicle --drive --json` does. Raises InputError for a vehicle that is not alike on both sides, for a cross
+    slope and for an effect that a drive can't take.
+    """
+    return document(_soilbin.drive_vehicle(checked_vehicle(vehicle), samples, rigid, no_lugs, told_to(progress)))
+
+
+def wheels_frame(answer: dict[str, Any]) -> pd.DataFrame:
+    """The wheels of an answer of vehicle_on_soil that travels, a row each; SI. ValueError for another one."""
+    if answer["steady"] is None:
+        raise ValueError(f"this vehicle does not travel: {answer['failure']['text']}")
+    return pd.json_normalize(answer["steady"]["wheels"])
