@@ -130,6 +130,13 @@ void check_flags(const CalibrateOptions& asked, const CLI::App& command, Contact
     refuse({"--test", "--strength", "--stresses"}, hint);
     if (!asked.decision.given()) refuse({"--settling-friction"}, hint);
   }
+  if (!asked.contact_test.curves.empty()) {
+    if (kind == ContactKind::grain_tire || asked.contact_test.strength_test != "triaxial")
+      throw InputError(
+          "--curves: the tests are triaxial ones, of sand on sand\n  hint: leave out --contact and --test");
+    refuse({"--strength", "--stresses"}, "beside --curves, whose tests tell both");
+    refuse({"--decide"}, "beside --curves\n  hint: calibrate the sand first, then --contact tire --decide");
+  }
   if (!asked.beside.empty())
     refuse({"--design", "--runs", "--near", "--within", "--probability", "--output", "--json", "--report", "--markdown",
             "--show-runs"},

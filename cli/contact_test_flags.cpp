@@ -7,6 +7,7 @@
 #include "cli/element_test_flags.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/soil_bin.hpp"
+#include "scenario/csv.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 
@@ -26,22 +27,50 @@ std::pair<std::string, std::string> named(const std::string& flag, const std::st
   return {name, equals == std::string::npos ? "" : text.substr(equals + 1)};
 }
 
+/// "VALUE[,SD]" of --target.
+Estimate read_target(const std::string& name, const std::string& text, const std::string& unit, const Range& range) {
+  const std::vector<std::string> parts = split(text, ",");
+  Estimate target{read_flag("--target " + name, parts[0], {unit, range}), 0.0};
+  if (parts.size() > 1) target.std_error = read_flag("--target " + name, parts[1], {unit, zero_or_more});
+  return target;
+}
+
 /// The soil's own phi and c for sand on sand; what --target names, where it names any.
 std::vector<Target> targets_of(const ContactTestFlags& asked, ContactKind kind, const Soil& soil) {
   std::vector<Target> targets;
   for (const std::string& text : asked.targets) {
     const auto [name, value] = named("--target", text, compare::target_names(kind));
     const std::string unit = compare::unit_of_target(name);
-    const std::vector<std::string> parts = split(value, ",");
-    Target target{name, {read_flag("--target " + name, parts[0], {unit, above_zero}), 0.0}, unit};
-    if (parts.size() > 1) target.measured.std_error = read_flag("--target " + name, parts[1], {unit, zero_or_more});
-    targets.push_back(std::move(target));
+    targets.push_back({name, read_target(name, value, unit, above_zero), unit});
   }
   return targets.empty() ? compare::targets_of(soil, kind) : targets;
 }
 
+/// Features of the measured curves; --target puts another value, or error, in place of one.
+std::vector<Target> targets_of(const ContactTestFlags& asked, const std::vector<compare::CompressionCurve>& curves) {
+  std::vector<std::string> known, names;
+  for (int k = 0; k < compare::curve_features; ++k)
+    known.emplace_back(compare::name_of(static_cast<compare::CurveFeature>(k)));
+  std::vector<compare::CurveFeature> features;
+  for (const std::string& text : split(asked.features, ",")) {
+    if (text.empty()) continue;
+    const std::string name = named("--features", text, known).first;
+    features.push_back(static_cast<compare::CurveFeature>(std::ranges::find(known, name) - known.begin()));
+  }
+  std::vector<Target> targets = compare::targets_of(curves, features);
+  for (const Target& target : targets) names.push_back(target.name);
+  for (const std::string& text : asked.targets) {
+    const auto [name, value] = named("--target", text, names);
+    Target& target = *std::ranges::find(targets, name, &Target::name);
+    target.measured = read_target(name, value, target.unit, {});
+    if (target.measured.std_error > 0) target.tolerance = 2 * target.measured.std_error;
+  }
+  return targets;
+}
+
 std::vector<Factor> factors_of(const ContactTestFlags& asked, ContactKind kind) {
-  std::vector<Factor> factors = compare::usual_factors(kind);
+  std::vector<Factor> factors =
+      asked.curves.empty() ? compare::usual_factors(kind) : compare::usual_factors_of_curves();
   std::vector<std::string> names;
   for (const Factor& factor : factors) names.push_back(factor.name);
   for (const std::string& text : asked.bounds) {
@@ -78,7 +107,14 @@ Soil ContactTestFlags::soil_with_grains(const Workplace& place) const {
 compare::VirtualTest ContactTestFlags::test(const Soil& of, std::function<void(const dem::Progress&)> progress) const {
   compare::ContactQuestion question;
   question.kind = kind(), question.factors = factors_of(*this, question.kind);
-  question.targets = targets_of(*this, question.kind, of);
+  if (curves.empty()) {
+    question.targets = targets_of(*this, question.kind, of);
+  } else {
+    std::vector<std::string> names = split(tests, ",");
+    std::erase(names, "");
+    question.curves = compare::read_compression(read_source_text(curves, largest_csv), names);
+    question.targets = targets_of(*this, question.curves);
+  }
   question.packings = packings, question.across = across;
   question.settling_friction = read_settling_friction(settling_friction, question.settling_friction);
   question.stresses.clear();
@@ -103,6 +139,12 @@ void ContactTestFlags::add_to(CLI::App& command) {
             "sand on sand: by which test; take the one that measured the target");
   add_value(command, "--target", targets, "NAME=VALUE[,SD]",
             "what was measured; repeatable; for sand, by default, the soil's own");
+  add_value(command, "--curves", curves, "FILE.csv",
+            "measured drained triaxial tests: strength, stiffness and volume change are the targets");
+  add_value(command, "--tests", tests, "NAME,NAME,...", "--curves: only these tests of the file")->needs("--curves");
+  add_value(command, "--features", features, "NAME,NAME,...",
+            "--curves: only these of peak_angle, end_angle, half_strain, volume, void_ratio")
+      ->needs("--curves");
   add_value(command, "--vary", bounds, "NAME=LOW..HIGH",
             "bounds of a number of the contact, in place of the usual ones; repeatable");
   add_value(command, "--keep", kept, "NAME", "keep this number as the soil has it; repeatable");

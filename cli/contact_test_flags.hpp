@@ -17,6 +17,7 @@ struct ContactTestFlags {
   std::string soil, contact = "sand", strength_test = "triaxial", strength = "peak", settling_friction = "1",
                     stresses = "10kPa,20kPa,40kPa";
   std::string rolling;
+  std::string curves, tests, features;
   std::vector<std::string> targets, bounds, kept;
   int packings = 0, threads = 0, across = 16;
 

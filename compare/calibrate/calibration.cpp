@@ -139,22 +139,31 @@ class LikelyPoints {
     return least;
   }
 
-  /// Mean and sd of the factors under weights exp(-chi^2/2) over the cloud, and what that tells beyond the flat prior:
-  /// 1 - sd/(width/sqrt 12), at least 0.
-  void weigh(std::vector<Estimate>& parameters, std::vector<double>& learned) const {
+  /// Mean, sd and correlations of the factors under weights exp(-chi^2/2) over the cloud, and what that tells beyond
+  /// the flat prior: 1 - sd/(width/sqrt 12), at least 0.
+  void weigh(Calibration& answer) const {
     const double least = smallest_chi_square();
-    for (std::size_t j = 0; j < test_.factors.size(); ++j) {
-      double sum = 0.0, first = 0.0, second = 0.0;
-      for (const Candidate& candidate : cloud_) {
-        const double weight = std::exp(-0.5 * (candidate.chi_square - least));
-        const double value = candidate.values[j];
-        sum += weight, first += weight * value, second += weight * value * value;
-      }
-      const double mean = first / sum, sd = std::sqrt(std::max(0.0, second / sum - mean * mean));
-      const double flat = (test_.factors[j].upper - test_.factors[j].lower) / std::sqrt(12.0);
-      parameters.push_back({mean, sd});
-      learned.push_back(std::max(0.0, 1 - sd / flat));
+    const auto factors = static_cast<Index>(test_.factors.size());
+    double sum = 0.0;
+    VectorXd mean = VectorXd::Zero(factors);
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(factors, factors);  // of the unit cube's coordinates
+    const auto over_cloud = [&](const auto& add) {
+      for (const Candidate& candidate : cloud_)
+        add(std::exp(-0.5 * (candidate.chi_square - least)), to_unit(test_.factors, candidate.values));
+    };
+    over_cloud([&](double weight, const VectorXd& at) { sum += weight, mean += weight * at; });
+    mean /= sum;
+    over_cloud(
+        [&](double weight, const VectorXd& at) { covariance += weight / sum * (at - mean) * (at - mean).transpose(); });
+    const VectorXd values = from_unit(test_.factors, mean), sd = covariance.diagonal().cwiseSqrt();
+    for (Index j = 0; j < factors; ++j) {
+      const Factor& factor = test_.factors[static_cast<std::size_t>(j)];
+      answer.parameters.push_back({values[j], sd[j] * (factor.upper - factor.lower)});
+      answer.learned.push_back(std::max(0.0, 1 - sd[j] * std::sqrt(12.0)));
     }
+    const VectorXd inverse = sd.unaryExpr([](double one) { return one > 0 ? 1 / one : 0.0; });
+    answer.correlations = inverse.asDiagonal() * covariance * inverse.asDiagonal();
+    answer.correlations.diagonal().setOnes();
   }
 
  private:
@@ -166,7 +175,8 @@ class LikelyPoints {
       const double variance = std::pow(predicted.std_error, 2) + std::pow(measured.std_error, 2);
       const double off = predicted.value - measured.value;
       candidate.chi_square += off * off / std::max(variance, 1e-12 * measured.value * measured.value);
-      candidate.chance *= chance_within(predicted, measured.value, options_.within * std::abs(measured.value));
+      const double tolerance = test_.targets[t].tolerance.value_or(options_.within * std::abs(measured.value));
+      candidate.chance *= chance_within(predicted, measured.value, tolerance);
       candidate.predicted.push_back(predicted);
     }
     return candidate;
@@ -174,8 +184,9 @@ class LikelyPoints {
 
   bool is_near(const Candidate& candidate, double near) const {
     for (std::size_t t = 0; t < test_.targets.size(); ++t) {
-      const double target = test_.targets[t].measured.value;
-      if (std::abs(candidate.predicted[t].value - target) > near * std::abs(target)) return false;
+      const Target& target = test_.targets[t];
+      const double most = target.tolerance ? 2 * *target.tolerance : near * std::abs(target.measured.value);
+      if (std::abs(candidate.predicted[t].value - target.measured.value) > most) return false;
     }
     return true;
   }
@@ -288,7 +299,7 @@ class Work {
     answer_.held_out = points.held_out();
     answer_.extra_sd = points.extra_sd();
     answer_.smallest_chi_square = points.smallest_chi_square();
-    points.weigh(answer_.parameters, answer_.learned);
+    points.weigh(answer_);
     return std::move(answer_);
   }
 
@@ -316,7 +327,8 @@ void check(const VirtualTest& test) {
       throw InputError(fmt::format("factor '{}' goes from {} to {}: the lower bound must be below the upper one",
                                    factor.name, factor.lower, factor.upper));
   for (const Target& target : test.targets)
-    if (!std::isfinite(target.measured.value) || target.measured.value == 0 || !(target.measured.std_error >= 0))
+    if (!std::isfinite(target.measured.value) || !(target.measured.std_error >= 0) ||
+        !(target.tolerance.value_or(std::abs(target.measured.value)) > 0))
       throw InputError(fmt::format("target '{}' is {} with error {}: tolerances are shares of it, so it can't be 0",
                                    target.name, target.measured.value, target.measured.std_error));
 }

@@ -43,8 +43,8 @@ struct Candidate {
 
 struct CalibrationOptions {
   std::string design = "L9";
-  double near = 0.05;         ///< candidates lie within this share of each target (the paper's 5 %)
-  double within = 0.03;       ///< the end: each target met within this share of it ...
+  double near = 0.05;    ///< candidates lie within this share of each target (the paper's 5 %), or twice its tolerance
+  double within = 0.03;  ///< the end: each target met within this share of it, or its own tolerance ...
   double probability = 0.90;  ///< ... with this probability
   int candidates = 4;         ///< at most
   int most_runs = 30;         ///< in all
@@ -74,6 +74,7 @@ struct Calibration {
   bool reached = false;                  ///< whether best.chance is at least the probability asked for
   std::vector<Estimate> parameters;      ///< of the factors, given the targets and a flat prior in the box [SI]
   std::vector<double> learned;       ///< 1 - sd of `parameters` over that of the flat prior: 0, the test says nothing
+  Eigen::MatrixXd correlations;      ///< of `parameters`, a row and a column a factor [-]
   double smallest_chi_square = 0.0;  ///< over the cloud; large where no point of the box meets the targets
 };
 

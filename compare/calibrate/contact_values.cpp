@@ -23,7 +23,11 @@ double& value_of(ContactPair& pair, const std::string& name) {
 
 void put_values(GranularSoil& soil, ContactKind kind, const std::vector<Factor>& factors,
                 const Eigen::VectorXd& values) {
-  for (std::size_t j = 0; j < factors.size(); ++j) value_of(pair_of(soil, kind), factors[j].name) = values[j];
+  for (std::size_t j = 0; j < factors.size(); ++j) {
+    const std::string& name = factors[j].name;
+    if (name == settling_friction_factor) continue;
+    (name == "youngs_modulus" ? soil.youngs_modulus : value_of(pair_of(soil, kind), name)) = values[j];
+  }
 }
 
 }  // namespace soilbin::compare

@@ -1,4 +1,4 @@
-// The numbers of a contact of grains that a calibration varies, by their names in files.
+// The numbers of grains that a calibration varies, by their names in files.
 //
 //   put_values(soil, ContactKind::grain_tire, {{"sliding_friction", 0.3, 0.9}}, values);
 #pragma once
@@ -19,7 +19,11 @@ std::string key_of(ContactKind kind);
 /// A contact's number by its name: "sliding_friction". Throws std::invalid_argument for an unknown one.
 double& value_of(ContactPair& pair, const std::string& name);
 
-/// Puts values of factors, which are named as a contact's numbers, into that contact.
+/// A factor that is not the soil's but the specimen's: how it settles (docs/guide/element-tests.md).
+inline constexpr const char* settling_friction_factor = "settling_friction";
+
+/// Puts values of factors into a soil: youngs_modulus into its grains, a contact's numbers into that contact;
+/// settling_friction is left aside. Throws std::invalid_argument for another name.
 void put_values(GranularSoil& soil, ContactKind kind, const std::vector<Factor>& factors,
                 const Eigen::VectorXd& values);
 

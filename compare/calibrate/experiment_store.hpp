@@ -28,8 +28,10 @@ namespace soilbin::compare {
 /// A number that was measured on the real soil and that a virtual test should give.
 struct Target {
   std::string name;        ///< "friction_angle"
-  Estimate measured;       ///< [SI], not 0; the error is the measurement's
+  Estimate measured;       ///< [SI]; the error is the measurement's. Not 0 without a tolerance
   std::string unit = "-";  ///< in which people read it
+  /// How far off still counts as met [SI]; none: a share of the value, CalibrationOptions::within.
+  std::optional<double> tolerance{};
 };
 
 /// An experiment that is asked for: what it is found by beside its test.

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -138,6 +140,21 @@ VirtualTest strength_test(const char* name, const ElementExperiment& experiment,
   return test;
 }
 
+/// A target of curves, "peak_angle.TX15", in simulated runs: the mean over packings and its error.
+Estimate simulated(const std::string& target, const std::vector<CompressionCurve>& measured,
+                   const std::vector<dem::TriaxialRun>& runs) {
+  for (const CompressionCurve& curve : measured)
+    for (int k = 0; k < curve_features; ++k) {
+      const auto feature = static_cast<CurveFeature>(k);
+      if (target_name(feature, curve) != target) continue;
+      std::vector<double> values;
+      for (const dem::TriaxialRun& run : runs)
+        if (run.stress == curve.confining) values.push_back(*feature_of(curve_of(run), feature, curve.strain.back()));
+      return values.size() > 1 ? mean_of(values) : Estimate{values.front(), 0.0};
+    }
+  throw InputError("target '" + target + "' is no feature of the measured curves");
+}
+
 template <class Settings>
 Settings specimen_settings(const GranularSoil& granular, const ContactQuestion& question) {
   Settings settings;
@@ -176,6 +193,40 @@ VirtualTest tilting_board_test(const ElementExperiment& experiment, const dem::T
   return test;
 }
 
+/// Sand on sand: the cell at the pressures of measured tests, as far as they go. A target is a feature of one of them.
+VirtualTest curve_test(const ElementExperiment& experiment, const ContactQuestion& question) {
+  dem::TriaxialSettings settings = specimen_settings<dem::TriaxialSettings>(experiment.soil, question);
+  settings.samples = 1000;
+  settings.stresses.clear(), settings.strain = 0;
+  for (const CompressionCurve& curve : question.curves) {
+    settings.strain = std::max(settings.strain, curve.strain.back());
+    if (std::ranges::find(settings.stresses, curve.confining) == settings.stresses.end())
+      settings.stresses.push_back(curve.confining);
+  }
+  Identity identity = identity_of("triaxial curves", experiment, settings, Strength::peak);
+  add_sides(identity, settings);
+  identity.add("samples", settings.samples);
+  for (const CompressionCurve& curve : question.curves)
+    identity.add(curve.test.c_str(), curve.confining).add("until", curve.strain.back());
+  VirtualTest test = test_of(experiment, identity.text());
+  const std::vector<CompressionCurve> measured = question.curves;
+  test.run = [=](const VectorXd& values, std::uint64_t seed) {
+    return answered([&] {
+      dem::TriaxialSettings own = settings;
+      own.specimen.packing = 1 + (seed - 1) * static_cast<std::uint64_t>(settings.packings);
+      for (std::size_t j = 0; j < experiment.factors.size(); ++j)
+        if (experiment.factors[j].name == settling_friction_factor)
+          own.specimen.settling_friction = values[static_cast<Eigen::Index>(j)];
+      const auto runs =
+          dem::triaxial(with_values(experiment, ContactKind::grain_grain, values), own, experiment.how).runs;
+      std::vector<Estimate> answer;
+      for (const Target& target : experiment.targets) answer.push_back(simulated(target.name, measured, runs));
+      return answer;
+    });
+  };
+  return test;
+}
+
 }  // namespace
 
 VirtualTest contact_test(const Soil& soil, const ContactQuestion& question) {
@@ -188,6 +239,7 @@ VirtualTest contact_test(const Soil& soil, const ContactQuestion& question) {
     settings.dt = board_step(granular);
     return tilting_board_test(experiment, settings, question.packings > 0 ? question.packings : 4);
   }
+  if (!question.curves.empty()) return curve_test(experiment, question);
   if (question.test == StrengthTest::triaxial)
     return strength_test("triaxial", experiment, specimen_settings<dem::TriaxialSettings>(granular, question),
                          question.strength);
@@ -220,6 +272,13 @@ std::vector<Factor> usual_factors(ContactKind kind) {
   if (kind == ContactKind::grain_tire)
     return {{"restitution", 0.3, 0.7, "-"}, {"sliding_friction", 0.3, 0.9, "-"}, {"rolling_friction", 0.1, 0.7, "-"}};
   return {{"sliding_friction", 0.1, 0.9, "-"}, {"rolling_friction", 0.0, 0.5, "-"}, {"cohesion", 0.0, 1e6, "kJ/m^3"}};
+}
+
+std::vector<Factor> usual_factors_of_curves() {
+  return {{"sliding_friction", 0.2, 0.9, "-"},
+          {"rolling_friction", 0.0, 0.6, "-"},
+          {"youngs_modulus", 2e9, 40e9, "GPa"},
+          {settling_friction_factor, 0.0, 1.0, "-"}};
 }
 
 }  // namespace soilbin::compare

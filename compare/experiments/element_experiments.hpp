@@ -9,6 +9,7 @@
 
 #include "compare/calibrate/calibration.hpp"
 #include "compare/calibrate/contact_values.hpp"
+#include "compare/experiments/compression_curves.hpp"
 #include "dem/element_tests/direct_shear.hpp"
 #include "dem/element_tests/tilting_board.hpp"
 #include "dem/element_tests/triaxial.hpp"
@@ -39,13 +40,17 @@ struct ContactQuestion {
   int packings = 0;                                ///< samples an experiment; 0: cell and shear box 1, board 4
   Strength strength = Strength::peak;              ///< of cell and shear box
   std::vector<double> stresses{10e3, 20e3, 40e3};  ///< confining in the cell, normal in the shear box [Pa]
-  double settling_friction = 1;                    ///< of cell and shear box, 0 .. 1
-  int across = 16;                                 ///< grains along a side of the board
+  double settling_friction = 1;                    ///< of cell and shear box, 0 .. 1, where it is no factor
+  /// Measured tests that the targets are features of: the cell then presses at their pressures, as far as they go, in
+  /// place of `stresses`. Triaxial, sand on sand.
+  std::vector<CompressionCurve> curves{};
+  int across = 16;  ///< grains along a side of the board
   dem::WorkOptions how;
 };
 
 /// Sand on sand by the triaxial cell or the shear box, sand on tire by the tilting board, with the soil's own rolling
-/// resistance. Throws InputError for a soil without grains and for settings that make no sense.
+/// resistance. With curves the factors may also be youngs_modulus and settling_friction. Throws InputError for a soil
+/// without grains and for settings that make no sense.
 VirtualTest contact_test(const Soil& soil, const ContactQuestion& question);
 
 /// The targets that a soil itself tells of a contact: phi and c for sand on sand. Throws InputError where it tells
@@ -56,5 +61,7 @@ std::vector<Target> targets_of(const Soil& soil, ContactKind kind);
 std::vector<std::string> target_names(ContactKind kind);
 std::string unit_of_target(const std::string& name);
 std::vector<Factor> usual_factors(ContactKind kind);
+/// What is varied against measured curves: sliding and rolling friction, youngs_modulus, settling_friction.
+std::vector<Factor> usual_factors_of_curves();
 
 }  // namespace soilbin::compare

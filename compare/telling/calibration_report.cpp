@@ -133,10 +133,12 @@ std::string misses(const VirtualTest& test, const Candidate& candidate) {
   std::string text;
   for (std::size_t t = 0; t < test.targets.size(); ++t) {
     const Target& target = test.targets[t];
-    text += fmt::format("{}{} {} for {} ({:+.1f} %)", t == 0 ? "" : ", ", target.name,
+    const double off = candidate.predicted[t].value - target.measured.value;
+    text += fmt::format("{}{} {} for {} ({})", t == 0 ? "" : ", ", target.name,
                         value_with_unit(candidate.predicted[t], target.unit),
                         value_with_unit({target.measured.value, 0}, target.unit),
-                        100 * (candidate.predicted[t].value / target.measured.value - 1));
+                        target.tolerance ? fmt::format("{:+.1f} tolerances", off / *target.tolerance)
+                                         : fmt::format("{:+.1f} %", 100 * off / target.measured.value));
   }
   return text;
 }
@@ -153,6 +155,36 @@ int fresh_runs(const Calibration& calibration) {
   int fresh = 0;
   for (const CalibrationRun& run : calibration.runs) fresh += !run.experiment.from_store;
   return fresh;
+}
+
+/// How near every target has to come.
+std::string nearness(const VirtualTest& test, const CalibrationOptions& options) {
+  const auto own =
+      std::ranges::count_if(test.targets, [](const Target& target) { return target.tolerance.has_value(); });
+  if (own == 0) return percent(options.within);
+  return static_cast<std::size_t>(own) == test.targets.size() ? "its tolerance"
+                                                              : percent(options.within) + " or its tolerance";
+}
+
+/// Pairs of factors that the targets determine only together.
+std::vector<std::string> sentences_on_correlations(const VirtualTest& test, const Calibration& calibration) {
+  constexpr double strong = 0.7;
+  std::vector<std::string> said;
+  for (Eigen::Index i = 0; i < calibration.correlations.rows(); ++i)
+    for (Eigen::Index j = i + 1; j < calibration.correlations.cols(); ++j)
+      if (const double r = calibration.correlations(i, j); std::abs(r) >= strong)
+        said.push_back(fmt::format("The targets determine {} and {} only together: their correlation is {:.2f}.",
+                                   test.factors[static_cast<std::size_t>(i)].name,
+                                   test.factors[static_cast<std::size_t>(j)].name, r));
+  return said;
+}
+
+/// The density that a calibration found belongs to the bed and not to the soil's file.
+std::vector<std::string> sentences_on_settling(const VirtualTest& test, const Calibration& calibration) {
+  const auto factor = std::ranges::find(test.factors, settling_friction_factor, &Factor::name);
+  if (factor == test.factors.end()) return {};
+  return {fmt::format("Beds of this density settle with --settling-friction {:.2f}.",
+                      calibration.best.values[factor - test.factors.begin()])};
 }
 
 std::string order_sentence(const VirtualTest& test, const Calibration& calibration, std::size_t target) {
@@ -210,12 +242,13 @@ std::vector<std::string> calibration_sentences(const VirtualTest& test, const Ca
   std::vector<std::string> said;
   const std::string chance = fmt::format("with probability {:.0f} %", 100 * calibration.best.chance);
   if (calibration.reached)
-    said.push_back(fmt::format("Reached: every target within {} {}.", percent(options.within), chance));
+    said.push_back(fmt::format("Reached: every target within {} {}.", nearness(test, options), chance));
   else
     said.push_back(fmt::format("Not reached in {} runs: every target within {} only {}.", calibration.runs.size(),
-                               percent(options.within), chance));
+                               nearness(test, options), chance));
   said.push_back("Chosen: " + values_in_words(test, calibration.best.values) + ".");
   said.push_back("It gives " + misses(test, calibration.best) + ".");
+  for (std::string& sentence : sentences_on_settling(test, calibration)) said.push_back(std::move(sentence));
   for (std::string& sentence : sentences_on_decision(options, calibration)) said.push_back(std::move(sentence));
   if (calibration.smallest_chi_square > 9)
     said.push_back(
@@ -231,6 +264,7 @@ std::vector<std::string> calibration_sentences(const VirtualTest& test, const Ca
       said.push_back(fmt::format("These targets hardly determine {}: {} is as good as the bounds.",
                                  test.factors[j].name,
                                  value_with_unit(calibration.parameters[j], test.factors[j].unit)));
+  for (std::string& sentence : sentences_on_correlations(test, calibration)) said.push_back(std::move(sentence));
   said.push_back(fmt::format("{} runs, {} made now.", calibration.runs.size(), fresh_runs(calibration)));
   return said;
 }
@@ -258,6 +292,23 @@ Table level_table(const VirtualTest& test, const Calibration& calibration, std::
     std::vector<TableCell> row{analysis.variance.left.source};
     row.resize(table.header.size() - 3);
     variance_cells(row, analysis.variance.left);
+    table.add(std::move(row));
+  }
+  return table;
+}
+
+Table allowed_table(const VirtualTest& test, const Calibration& calibration) {
+  Table table{"What the targets alone allow", {"", "value", "bounds", "determined"}};
+  for (const Factor& factor : test.factors) table.header.push_back("correlation with " + factor.name);
+  for (std::size_t j = 0; j < test.factors.size(); ++j) {
+    const Factor& factor = test.factors[j];
+    const double per = per_unit(factor.unit);
+    std::vector<TableCell> row{heading(factor.name, factor.unit), number(calibration.parameters[j], per),
+                               number(factor.lower * per) + " to " + number(factor.upper * per),
+                               percent(calibration.learned[j])};
+    for (std::size_t k = 0; k < test.factors.size(); ++k)
+      row.push_back(
+          fmt::format("{:.2f}", calibration.correlations(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k))));
     table.add(std::move(row));
   }
   return table;
@@ -302,10 +353,11 @@ Soil calibrated_soil(Soil soil, ContactKind kind, const VirtualTest& test, const
   put_values(grains, kind, test.factors, calibration.best.values);
   for (std::size_t j = 0; j < test.factors.size(); ++j) {
     const Factor& factor = test.factors[j];
-    grains.sources[key_of(kind) + "." + factor.name] =
-        fmt::format("calibrated by soilbin calibrate ({}, {} runs): {}; the targets alone allow {}{}", options.design,
-                    calibration.runs.size(), misses(test, calibration.best),
-                    value_with_unit(calibration.parameters[j], factor.unit), decided_by(calibration));
+    if (factor.name == settling_friction_factor) continue;
+    const std::string key = factor.name == "youngs_modulus" ? factor.name : key_of(kind) + "." + factor.name;
+    grains.sources[key] = fmt::format("calibrated by soilbin calibrate ({}, {} runs): {}; the targets alone allow {}{}",
+                                      options.design, calibration.runs.size(), misses(test, calibration.best),
+                                      value_with_unit(calibration.parameters[j], factor.unit), decided_by(calibration));
   }
   return soil;
 }
@@ -392,7 +444,11 @@ Table beside_table(const VirtualTest& test, const std::vector<PublishedSet>& set
 }
 
 Json to_json(const VirtualTest& test, const CalibrationOptions& options, const Calibration& calibration) {
-  Json factors = Json::array(), targets = Json::array(), candidates = Json::array();
+  Json factors = Json::array(), targets = Json::array(), candidates = Json::array(), correlations = Json::array();
+  for (Eigen::Index j = 0; j < calibration.correlations.rows(); ++j) {
+    const Eigen::VectorXd row = calibration.correlations.row(j);
+    correlations.push_back(std::vector<double>(row.begin(), row.end()));
+  }
   for (std::size_t j = 0; j < test.factors.size(); ++j)
     factors.push_back({{"name", test.factors[j].name},
                        {"lower", test.factors[j].lower},
@@ -404,6 +460,7 @@ Json to_json(const VirtualTest& test, const CalibrationOptions& options, const C
                 {"measured", estimate_json(test.targets[t].measured)},
                 {"held_out_rms", calibration.held_out[t].rms()},
                 {"extra_sd", calibration.extra_sd[t]}};
+    if (test.targets[t].tolerance) target["tolerance"] = *test.targets[t].tolerance;
     if (!calibration.analyses.empty()) target["design"] = analysis_json(test, calibration.analyses[t]);
     targets.push_back(std::move(target));
   }
@@ -418,6 +475,7 @@ Json to_json(const VirtualTest& test, const CalibrationOptions& options, const C
             {"reached", calibration.reached},
             {"best", json_of(test, calibration.best)},
             {"factors", factors},
+            {"correlations", correlations},
             {"targets", targets},
             {"candidates", candidates},
             {"runs", runs_json(test, calibration)},
@@ -433,6 +491,7 @@ Report report_on(const VirtualTest& test, const CalibrationOptions& options, con
   report.add(Sentences(calibration_sentences(test, options, calibration)));
   for (std::size_t t = 0; t < calibration.analyses.size(); ++t)
     report.add("What each factor does to " + test.targets[t].name, level_table(test, calibration, t));
+  report.add("What the targets alone allow", allowed_table(test, calibration));
   if (!calibration.candidates.empty()) report.add("Candidates", candidates_table(test, calibration));
   report.add("Runs", runs_table(test, calibration), with_runs ? Told::everywhere : Told::to_look_at);
   report.data = [&] { return to_json(test, options, calibration); };

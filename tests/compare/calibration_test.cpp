@@ -124,6 +124,22 @@ TEST(Calibration, ATargetOutOfReachIsNotReached) {
   EXPECT_EQ(found.runs.size(), 14U);
 }
 
+TEST(Calibration, ATargetWithAToleranceMayBeZero) {
+  ExperimentStore store;
+  VirtualTest test;
+  test.identity = "stand-in volume";
+  test.factors = {{"sliding_friction", 0, 1, "-"}, {"settling_friction", 0, 1, "-"}};
+  test.targets = {{"volume", {0, 0.005}, "%", 0.01}};
+  test.run = [](const VectorXd& v, std::uint64_t) -> std::vector<Estimate> { return {{0.1 * (v.sum() - 0.8), 1e-4}}; };
+  const Calibration found = calibrate(test, {}, store);
+  EXPECT_TRUE(found.reached);
+  EXPECT_NEAR(found.best.values.sum(), 0.8, 0.1);
+  // Only the sum is determined: with it, what one factor has the other one lacks.
+  EXPECT_LT(found.correlations(0, 1), -0.9);
+  EXPECT_EQ(found.correlations(0, 1), found.correlations(1, 0));
+  EXPECT_EQ(found.correlations(0, 0), 1);
+}
+
 TEST(Calibration, StoppedAndResumedIsTheSameAndDoesNoWorkTwice) {
   const Folder folder;
   ExperimentStore fresh;
