@@ -32,6 +32,18 @@ double critical_ground_pressure(const SoilValues& soil, double radius, double wi
   return soil.pressure_modulus(width) * std::pow(z, soil.exponent);
 }
 
+std::optional<double> infinite_slope_angle(double cohesion, double friction_angle, double unit_weight, double depth) {
+  const double sine = std::sin(friction_angle) + 2 * cohesion / (unit_weight * depth) * std::cos(friction_angle);
+  if (sine > 1.0) return std::nullopt;
+  return 0.5 * (friction_angle + std::asin(sine));
+}
+
+std::optional<double> sliding_slope(const Soil& soil, const Tire& tire) {
+  const SemiEmpiricalSoil& values = soil.semi_empirical.value();
+  return infinite_slope_angle(values.cohesion.value, values.friction_angle.value,
+                              bulk_density(values) * gravity_of(values), tire.radius);
+}
+
 namespace paper {
 
 double sinkage(const SoilValues& soil, double radius, double width, double load, double slip, double theta_m) {

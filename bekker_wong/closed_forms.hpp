@@ -5,7 +5,11 @@
 //   const double resistance = compaction_resistance(soil, 0.15, z);  // [N]; the same as rolling_resistance(...)
 #pragma once
 
+#include <optional>
+
 #include "bekker_wong/contact_patch.hpp"
+#include "scenario/soil.hpp"
+#include "scenario/tire.hpp"
 
 namespace soilbin::bekker_wong {
 
@@ -27,6 +31,14 @@ double rolling_resistance(const SoilValues& soil, double radius, double width, d
 /// p_gcr = k^(1/(2n+1)) [3 W/((3 - n) b sqrt(D))]^(2n/(2n+1)) = k z^n. A pneumatic tire whose inflation plus carcass
 /// pressure exceeds it rolls as if rigid (Wong, Theory of Ground Vehicles, ch. 2).
 double critical_ground_pressure(const SoilValues& soil, double radius, double width, double load);
+
+/// The slope from which on a long slope of soil slides by itself on a plane `depth` [m] below its surface, of soil with
+/// this cohesion [Pa], friction angle [rad] and unit weight [N/m^3]: c + w cos(beta)^2 tan(phi) = w sin(beta)
+/// cos(beta), w = unit weight times depth (the infinite slope without water, after Taylor 1948). phi where c = 0; none:
+/// at no slope below 90 deg.
+std::optional<double> infinite_slope_angle(double cohesion, double friction_angle, double unit_weight, double depth);
+/// That of a soil with semi_empirical values at a depth of the tire's radius [rad].
+std::optional<double> sliding_slope(const Soil& soil, const Tire& tire);
 
 /// The source paper's equations as they stand in it. Of its Eqs. 1 to 4, which are those of the model or of
 /// docs/reference/conventions.md, two have a fault: Eq. 1 takes the drawbar pull's integral from 0 on, not from

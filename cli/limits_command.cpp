@@ -37,7 +37,10 @@ int limits(const Question& inputs, const LimitsOptions& options, const Session& 
     return document_of("soilbin-limits/1", question, compare::limits_rows(answers), session.place.effects);
   };
   report.resolved_case = write_case(question, session.place.effects);
-  return publish(report, options.outputs, joined_doubts(std::move(notes), question, at_limits), session).status(done);
+  std::vector<compare::ModelAnswers> doubtful = at_limits;
+  for (compare::ModelAnswers& one : compare::answers_below_no_slip(question, answers))
+    doubtful.push_back(std::move(one));
+  return publish(report, options.outputs, joined_doubts(std::move(notes), question, doubtful), session).status(done);
 }
 
 }  // namespace

@@ -88,8 +88,11 @@ struct Depths {
   Array value, slope;
 };
 
-/// Wong's flat: the pressure stays below p_g/a, so the depth below z_g, P(z_g) = p_g/a. The corner is rounded by the
-/// power 6 (the depth is 11 % below z_g where the circle's is z_g), so that the balance stays smooth.
+/// Wong's flat: the pressure stays below p_g/a, so the depth below z_g, P(z_g) = p_g/a. The corner of the tread's depth
+/// is rounded by the power 6 (11 % below z_g where the circle's depth is z_g), so that the patch's few nodes follow it.
+/// The exit angle goes with the root of the deflection: by that corner a tire that the soil presses with two thirds of
+/// p_g, which should be rigid, would have a long contact behind the axle and pull 5 % of its load too much. So the
+/// exit is that of a corner four times as sharp.
 struct PressureCap {
   double n, most, deepest;  // z_g of the power law, (p_g/(a k))^(1/n)
   PressureCap(double a, const Outline& outline, const Surroundings& around)
@@ -101,6 +104,11 @@ struct PressureCap {
   /// Rises with that depth, 1 where it is right.
   double residual(double, double pressure, double) const { return pressure / most; }
   double tread(double z_g, double d) const { return d * rounded(d / z_g); }
+  /// Depth of the tread by which the contact ends.
+  static double tread_at_exit(double z_g, double d) {
+    constexpr double corner = 24.0, farthest = 1e12;  // of d/z_g, whose power is still a number
+    return d * std::pow(1 + std::pow(std::min(d / z_g, farthest), corner), -1.0 / corner);
+  }
   /// The decisive depth, and the pressure there, where the tread lies at y below the circle's d.
   static double decisive_under(double y, double d) { return y * std::pow(-std::expm1(6 * std::log(y / d)), -1.0 / 6); }
   double pressure_under(double, double) const { return most; }
@@ -142,6 +150,7 @@ struct CarcassSpring {
   /// Rises with that depth, 1 where it is right.
   double residual(double y, double pressure, double d) const { return (y + softness * pressure) / d; }
   static double tread(double y, double) { return y; }
+  static double tread_at_exit(double y, double) { return y; }
   /// The decisive depth, and the pressure there, where the tread lies at y below the circle's d.
   static double decisive_under(double y, double) { return y; }
   double pressure_under(double y, double d) const { return (d - y) / softness; }
@@ -199,14 +208,25 @@ class Tread {
   }
 
   /// How far the lowest point of the tread stays above the circle's.
-  double deflection() const {
-    const double half = std::sin(0.5 * entry_), depth = 2 * outline_.radius * half * half;
-    Depths reached;
-    (*this)({&depth, 1}, reached);
-    return depth - reached.value[0];
+  double deflection() const { return lowest() - tread_at_lowest(); }
+
+  /// The deflection by which the contact ends behind the axle.
+  double deflection_at_exit() const {
+    return lowest() - law_.tread_at_exit(law_.decisive_under(tread_at_lowest(), lowest()), lowest());
   }
 
  private:
+  /// Depth of the circle's lowest point.
+  double lowest() const {
+    const double half = std::sin(0.5 * entry_);
+    return 2 * outline_.radius * half * half;
+  }
+  double tread_at_lowest() const {
+    const double depth = lowest();
+    Depths reached;
+    (*this)({&depth, 1}, reached);
+    return reached.value[0];
+  }
   /// Below this depth the tread's share of it stays the same [m].
   double least() const { return 1e-9 * outline_.radius; }
 
@@ -281,7 +301,7 @@ class Flattening final : public Effect {
 
   void angles(ContactAngles& a, const Outline& outline, const Surroundings& around) const override {
     if (amplitude_ == 0.0) return;
-    const double deflection = Tread<Law>(amplitude_, outline, around, a.entry).deflection();
+    const double deflection = Tread<Law>(amplitude_, outline, around, a.entry).deflection_at_exit();
     a.exit = std::min(a.exit, -2 * std::asin(std::sqrt(std::clamp(deflection / (2 * outline.radius), 0.0, 1.0))));
   }
 

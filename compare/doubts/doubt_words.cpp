@@ -73,6 +73,12 @@ constexpr DoubtSentence sentences[] = {
     D(pull_without_slip, "the wheel pulls {:.2g} of its load{at}: even there the model shears the soil by up to {:.3g} "
       "mm under a radius of {:.4g} mm, and K is {:.3g} mm. A wheel that pulls slips: take pulls at less than 5 % slip "
       "as upper bounds"),
+    D(drives_without_slip, "a driven wheel needs no slip{at}: its rim is slower than its travel, because the model "
+      "shears the soil under a large or deep wheel before it slips. Real driven wheels slip by some percent: take "
+      "slips below 5 %, and what is climbed or pulled with them, as bounds"),
+    D(slope_slides, "from {:.3g} deg on this soil slides by itself (c, phi, at a depth of the wheel's radius){at}"),
+    D(heavy_and_lugged, "the pull of a heavy lugged tire on sand is rather too high: beside grains that resolve the lugs "
+      "by 20 to 24 % of the load (docs/guide/trust-the-estimate.md)"),
     D(beyond_learned, "the learned effect ({}) was learned from another range of the {}: its value at the edge of "
       "that range is used{at}"),
     D(errors_left_out, "the standard errors leave out the soil's {}"),

@@ -111,6 +111,34 @@ Doubts pull_without_slip(const Scenario& scenario, const Answer& answer) {
                 at}};
 }
 
+/// A slope on which no soil like this would lie.
+Doubts slope_slides(const Scenario& scenario, const OperatingCondition& at) {
+  const double slope = std::acos(std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline));
+  const std::optional<double> slides = bekker_wong::sliding_slope(scenario.soil, scenario.tire);
+  if (!slides || slope <= *slides) return {};
+  return {Doubt{DoubtKind::slope_slides, {*slides / degree}, at}};
+}
+
+/// A wheel like those of the failure map heavy-lugged-incline (docs/lab/failure-maps.md): 10 to 40 kN on a tire of 0.7
+/// m radius with lugs of 45 mm, on sand of 3.9 kPa and 31 deg; what is like it is chosen.
+Doubts heavy_and_lugged(const Scenario& scenario, const Answer& answer) {
+  const bekker_wong::SoilValues soil = bekker_wong::values_of(*scenario.soil.semi_empirical);
+  const bool frictional = soil.cohesion < 5e3 && soil.friction_angle > 0.35;
+  if (!(scenario.tire.lugs.height > 0.0) || answer.at.load < 10e3 || !frictional ||
+      !(answer.result->drawbar_pull.value > 0.0))
+    return {};
+  return {Doubt{DoubtKind::heavy_and_lugged}};
+}
+
+/// A driven wheel that needs no slip to carry itself, or to pull: the rim is slower than the travel.
+Doubts drives_without_slip(const Answer& answer) {
+  constexpr double no_slip = -0.01, carries_itself = -0.01;  // chosen; the second one is a share of the load
+  const OperatingCondition& at = answer.at;
+  const double beside_slope = answer.result->drawbar_pull.value + at.load * std::sin(at.longitudinal_incline);
+  if (at.slip > no_slip || !(answer.result->torque.value > 0.0) || beside_slope < carries_itself * at.load) return {};
+  return {Doubt{DoubtKind::drives_without_slip, {}, at}};
+}
+
 /// What the analytic wheel answers at one condition.
 void add_answer_doubts(const Scenario& scenario, const Answer& answer, Doubts& all) {
   const OperatingCondition& at = answer.at;
@@ -130,6 +158,9 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Doubts& a
   append(all, beyond_deflections(scenario, answer));
   append(all, taken_as_rigid(scenario, answer));
   append(all, pull_without_slip(scenario, answer));
+  append(all, drives_without_slip(answer));
+  append(all, slope_slides(scenario, at));
+  append(all, heavy_and_lugged(scenario, answer));
 }
 
 /// Of each answer, those alike once.

@@ -111,7 +111,6 @@ WheelLimits limits_at(const Scenario& scenario, const ModelChoice& model, const 
                       std::vector<double> (*slopes)(double steepest)) {
   WheelLimits answer;
   answer.model = model, answer.at = at, answer.max_slip = max_slip;
-  answer.friction_angle = scenario.soil.semi_empirical->friction_angle.value;
   if (model.model != ModelKind::bekker_wong) throw InputError("limits asks the model bekker_wong alone");
   const bekker_wong::RollingWheel wheel = wheel_of(scenario, model);
   try {
@@ -208,19 +207,38 @@ std::vector<WheelLimits> at_more_slopes(const Scenario& scenario, const std::vec
 }
 
 /// The wheel where it pulls most on each slope: what there is to doubt in the answer.
-std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vector<WheelLimits>& answers) {
+namespace {
+
+/// The wheel on each slope at the slip that `slip_of` a row gives; none: not asked.
+template <class SlipOf>
+std::vector<ModelAnswers> answers_on_slopes(const Case& question, const std::vector<WheelLimits>& answers,
+                                            const SlipOf& slip_of) {
   const bekker_wong::BekkerWong model({.errors = false, .patch = false});
   std::vector<ModelAnswers> study;
   for (const WheelLimits& answer : answers) {
     const Scenario scenario = seen_by(answer.model, question.scenario);
     study.push_back({answer.model, {}});
     for (const SlopeRow& row : answer.slopes) {
+      const std::optional<double> slip = slip_of(row);
+      if (!slip) continue;
       OperatingCondition at = answer.at;
-      at.longitudinal_incline = row.slope, at.slip = row.best.slip;
+      at.longitudinal_incline = row.slope, at.slip = *slip;
       study.back().answers.push_back(ask(model, scenario, at));
     }
   }
   return study;
+}
+
+}  // namespace
+
+std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vector<WheelLimits>& answers) {
+  return answers_on_slopes(question, answers, [](const SlopeRow& row) { return std::optional(row.best.slip); });
+}
+
+std::vector<ModelAnswers> answers_below_no_slip(const Case& question, const std::vector<WheelLimits>& answers) {
+  return answers_on_slopes(question, answers, [](const SlopeRow& row) {
+    return row.slip.value_or(0.0) < 0.0 && row.slope >= 0.0 ? row.slip : std::nullopt;
+  });
 }
 
 std::optional<double> carried_load(const Case& question) {

@@ -44,7 +44,6 @@ struct WheelLimits {
   std::vector<SlopeRow> slopes;
   std::string error;            ///< why there is no answer; empty where there is one
   bool at_every_speed = false;  ///< of the question's: the same answer
-  double friction_angle = 0.0;  ///< of the soil [rad]
 };
 
 /// Of each analytic model at each condition of the question, slip and longitudinal incline left aside; conditions that
@@ -82,6 +81,9 @@ std::optional<double> carried_load(const Case& question);
 /// The steepest slope [rad] that the wheel of the question's first model climbs under its first condition, at whatever
 /// slip; nothing where there is none or the soil is known by its grains alone.
 std::optional<double> steepest_slope(const Case& question);
+
+/// The wheel where it climbs slopes with its rim slower than its travel: what there may be doubts about.
+std::vector<ModelAnswers> answers_below_no_slip(const Case& question, const std::vector<WheelLimits>& answers);
 
 /// The answers at more slopes, for a drawing; one without an answer stays as it is.
 std::vector<WheelLimits> at_more_slopes(const Scenario& scenario, const std::vector<WheelLimits>& answers);

@@ -81,6 +81,14 @@ std::string where_of(const Comparison& comparison, std::size_t condition) {
 /// Share of the squared difference that other soil values within their declared uncertainty would take away.
 double taken_by_the_soil(const JointTest& test) { return 1.0 - test.chi2 / test.chi2_soil_exact; }
 
+/// What is left of the differences under the best of these soil values, root mean square, in their own errors.
+double left_by_the_soil(const JointTest& test) { return std::sqrt(test.chi2 / static_cast<double>(test.values)); }
+constexpr double explained = 2.0;  // errors that may be left where the soil is said to explain differences
+
+std::string left_in_words(double errors) {
+  return fmt::format("what is left is {:.2g} times its standard errors (root mean square)", errors);
+}
+
 std::string rest_called(JointVerdict verdict) {
   switch (verdict) {
     case JointVerdict::significant:
@@ -100,29 +108,37 @@ Clause joint_clause(const Comparison& comparison, const JointTest& test) {
   const std::string errors =
       std::isinf(test.freedom) ? "" : fmt::format("; noise with {:.0f} degrees of freedom", test.freedom);
   clause.text = fmt::format(
-      "The soil's uncertainty explains {:.0f} % of the squared difference between {} and {}. The rest is {}: chi2 = {} "
-      "for {} values ({}{}).",
-      100 * taken_by_the_soil(test), side, reference, rest_called(test.verdict()), number(test.chi2), test.values, p,
-      errors);
+      "Other soil values within their declared uncertainty would take away {:.0f} % of the squared difference between "
+      "{} "
+      "and {}; {}: {}, chi2 = {} for {} values ({}{}).",
+      100 * taken_by_the_soil(test), side, reference, left_in_words(left_by_the_soil(test)),
+      rest_called(test.verdict()), number(test.chi2), test.values, p, errors);
   return clause;
 }
 
 /// One sentence on what a better known soil could explain, of all pairs together.
 std::optional<Clause> soil_clause(const Comparison& comparison) {
   if (comparison.joint.empty()) return std::nullopt;
-  double least = 1.0, most = 0.0;
+  double least = 1.0, most = 0.0, left = 0.0;
   std::set<JointVerdict> verdicts;
   for (const JointTest& test : comparison.joint) {
     least = std::min(least, taken_by_the_soil(test)), most = std::max(most, taken_by_the_soil(test));
+    left = std::max(left, left_by_the_soil(test));
     verdicts.insert(test.verdict());
   }
   std::vector<std::string> rest;
   for (const JointVerdict verdict : verdicts) rest.push_back(rest_called(verdict));
   std::string share = fmt::format("{:.0f} %", 100 * most);
   if (std::lround(100 * least) != std::lround(100 * most)) share = fmt::format("{:.0f} to {}", 100 * least, share);
+  const std::string found = fmt::format("{}{}", fmt::join(rest, " or "), rest.size() > 1 ? ", by side" : "");
   return Clause{"The soil",
-                fmt::format("The soil's uncertainty explains {} of the squared difference. The rest is {}{}.", share,
-                            fmt::join(rest, " or "), rest.size() > 1 ? ", by side" : ""),
+                left > explained
+                    ? fmt::format("Other soil values within their declared uncertainty do not explain the differences: "
+                                  "they would take away {} of the squared difference; {}, {}.",
+                                  share, left_in_words(left), found)
+                    : fmt::format("Other soil values within their declared uncertainty would take away {} of the "
+                                  "squared difference. The rest is {}.",
+                                  share, found),
                 {ClauseEvidence::joint_test}};
 }
 

@@ -72,10 +72,6 @@ std::vector<std::string> words_on_slopes(const WheelLimits& answer) {
   if (only_bounds(answer))
     words.emplace_back(
         "Without slip sinkage the largest pull and the steepest slope are upper bounds. Add --effect slip_sinkage.");
-  if (answer.steepest && *answer.steepest > answer.friction_angle)
-    words.push_back(fmt::format(
-        "Slopes above the friction angle, {:.3g} deg, may slide by themselves: slope stability is not checked.",
-        answer.friction_angle / degree));
   if (!answer.steepest) {
     words.emplace_back("The steepest slope lies beyond -60 .. 80 deg.");
     return words;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/effect.hpp"
 #include "compare/report/heat_map.hpp"
 #include "compare/report/json_fields.hpp"
@@ -198,13 +199,13 @@ std::vector<std::string> vehicle_remarks(const VehicleAnswers& answers) {
     said.emplace_back(
         "In a rut the effect multipass knows the number of the pass; load and slip of the wheel before are taken as "
         "those of the wheel itself.");
-  const double friction_angle = answers.question.soil.semi_empirical->friction_angle.value;
-  if (std::ranges::any_of(std::array{answers.up, answers.down, answers.across}, [&](const VehicleLimit& limit) {
-        return limit.angle && limit.angle->value > friction_angle;
-      }))
+  const std::optional<double> slides =
+      bekker_wong::sliding_slope(answers.question.soil, answers.question.axles.front().tire);
+  if (slides &&
+      std::ranges::any_of(std::array{answers.up, answers.down, answers.across},
+                          [&](const VehicleLimit& limit) { return limit.angle && limit.angle->value > *slides; }))
     said.push_back(fmt::format(
-        "Slopes above the friction angle, {:.3g} deg, may slide by themselves: slope stability is not checked.",
-        friction_angle / degree));
+        "From {:.3g} deg on this soil slides by itself (c, phi, at a depth of a wheel's radius).", *slides / degree));
   const std::size_t axles = answers.question.axles.size();
   if (axles > 2)
     said.push_back(fmt::format("Loads of {} axles: a rigid frame on {}.", axles,

@@ -106,5 +106,14 @@ TEST(PaperEquations, SinkageFallsWithSlip) {
   EXPECT_LT(paper::sinkage(soil, r, b, 800, 0.6, 0.1), paper::sinkage(soil, r, b, 800, 0.2, 0.1));
 }
 
+// A long slope: by its angle of friction without cohesion; with it, where weight and strength on the plane balance.
+TEST(InfiniteSlope, SlidesWhereStrengthEqualsWeight) {
+  EXPECT_NEAR(infinite_slope_angle(0.0, 0.5, 16e3, 0.3).value(), 0.5, 1e-14);
+  const double c = 1e3, phi = 0.5, w = 16e3 * 0.3, slope = infinite_slope_angle(c, phi, 16e3, 0.3).value();
+  EXPECT_NEAR(c + w * std::pow(std::cos(slope), 2) * std::tan(phi), w * std::sin(slope) * std::cos(slope), 1e-9 * w);
+  EXPECT_GT(slope, 0.5);
+  EXPECT_FALSE(infinite_slope_angle(20e3, 0.1, 16e3, 0.3)) << "clay holds";
+}
+
 }  // namespace
 }  // namespace soilbin::bekker_wong

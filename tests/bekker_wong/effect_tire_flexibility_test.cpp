@@ -73,6 +73,17 @@ TEST(TireFlexibility, FlatSectionSparesTheLightWheel) {
   EXPECT_GT(lost(2000), lost(800));
 }
 
+// Wong's rigid mode: where the soil presses with two thirds of p_g at the most, the contact ends under the axle, and
+// the rounded corner moves the pull by less than 2 % of the load.
+TEST(TireFlexibility, FlatSectionIsRigidWellBelowTheGroundPressure) {
+  const RolledWheel rigid = RollingWheel(soft_tire(), sand()).roll(driven());
+  const auto sigma = rigid.patch.of(&ContactPatch::sigma);
+  const double most = *std::ranges::max_element(sigma);
+  const RolledWheel w = rolled_on({"tire_flexibility", "flat_section", {}}, driven(), soft_tire(1.5 * most));
+  EXPECT_NEAR(w.reading.drawbar_pull, rigid.reading.drawbar_pull, 0.02 * driven().load);
+  EXPECT_NEAR(w.patch.angles.exit, 0.0, 0.005);
+}
+
 // Softer is softer: sinkage falls with the amplitude and rises with the inflation pressure.
 TEST(TireFlexibility, FollowsAmplitudeAndPressure) {
   for (const char* form : carcass_forms) {
@@ -123,13 +134,14 @@ TEST(TireFlexibility, CarcassSpringInEquilibrium) {
 }
 
 /// The flattened wheel at a given theta_1, summed over 20,000 equal steps of theta, in the order of its definition:
-/// outline y = S(d), slope, arc, belt travel, pressure by depth and behind theta_m by mirror angle, Janosi shear.
-template <class Law>
-std::array<double, 3> summed(const Law& law, double theta_1, double slip) {
+/// outline y = S(d), exit by its own law, slope, arc, belt travel, pressure by depth and behind theta_m by mirror
+/// angle, Janosi shear.
+template <class Law, class AtExit>
+std::array<double, 3> summed(const Law& law, const AtExit& at_exit, double theta_1, double slip) {
   const SoilValues soil = sand();
   const double k = soil.pressure_modulus(width), theta_m = (soil.c1 + soil.c2 * slip) * theta_1;
   const auto circle = [&](double t) { return radius * (std::cos(t) - std::cos(theta_1)); };
-  const double exit = -std::acos(std::cos(theta_1) + law(circle(0)) / radius);
+  const double exit = -std::acos(std::cos(theta_1) + at_exit(circle(0)) / radius);
   constexpr int steps = 20000;
   const double dt = (theta_1 - exit) / steps;
   double j = 0, forward = 0, vertical = 0, torque = 0;
@@ -149,14 +161,14 @@ std::array<double, 3> summed(const Law& law, double theta_1, double slip) {
   return {forward, vertical, torque};
 }
 
-template <class Law>
-void expect_summed(const char* form, double a, const Law& law) {
+template <class Law, class AtExit>
+void expect_summed(const char* form, double a, const Law& law, const AtExit& at_exit) {
   const RollingWheel wheel(soft_tire(), sand(), make_effects({{"tire_flexibility", form, {{"a", a}}}}));
   for (const double slip : {0.0, 0.3})
     for (const double theta_1 : {0.4, 0.8, 1.2}) {
       SCOPED_TRACE(fmt::format("{} {}, slip {}, theta_1 {}", form, a, slip, theta_1));
       const RolledWheel w = wheel.at_entry_angle(driven(800, slip), theta_1);
-      const std::array<double, 3> sum = summed(law, theta_1, slip);
+      const std::array<double, 3> sum = summed(law, at_exit, theta_1, slip);
       EXPECT_NEAR(w.forces.thrust + w.forces.compaction, sum[0], 1e-4 * sum[1]);
       EXPECT_NEAR(w.forces.vertical, sum[1], 1e-4 * sum[1]);
       EXPECT_NEAR(w.forces.torque, sum[2], 1e-4 * sum[1] * radius);
@@ -168,16 +180,21 @@ void expect_summed(const char* form, double a, const Law& law) {
 TEST(TireFlexibility, PatchAgreesWithBruteForce) {
   const double k = sand().pressure_modulus(width), n = sand().exponent;
   const double deepest = std::pow(100e3 / k, 1 / n);
-  expect_summed("flat_section", 1.0, [&](double d) { return d * std::pow(1 + std::pow(d / deepest, 6), -1.0 / 6); });
-  for (const double a : {0.4, 1.0})
-    expect_summed("carcass_spring", a, [&](double d) {
+  const auto capped = [&](double corner) {
+    return [=](double d) { return d * std::pow(1 + std::pow(d / deepest, corner), -1.0 / corner); };
+  };
+  expect_summed("flat_section", 1.0, capped(6), capped(24));
+  for (const double a : {0.4, 1.0}) {
+    const auto in_series = [&](double d) {
       double low = 0, high = d;
       for (int i = 0; i < 60; ++i) {
         const double y = 0.5 * (low + high);
         (y + 0.5 * radius * a * a * k * std::pow(y, n) / 100e3 < d ? low : high) = y;
       }
       return low;
-    });
+    };
+    expect_summed("carcass_spring", a, in_series, in_series);
+  }
 }
 
 // A wheel that slip has dug in stands as deep as it says: its circle lies deeper by the deflection. The carcass gives

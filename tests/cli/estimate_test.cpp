@@ -737,6 +737,26 @@ TEST(Estimate, DoubtsAPullWithoutSlip) {
   EXPECT_EQ(soilbin("estimate --soil dry-sand --tire rover-wheel --load 65N --slip 0%").err, "");
 }
 
+// Beyond that a driven wheel needs no slip at all to carry itself, which no driven wheel does.
+TEST(Estimate, DoubtsADrivenWheelThatNeedsNoSlip) {
+  const std::string heavy = "estimate --soil upland-sandy-loam --radius 670mm --width 430mm --load 30kN --slip ";
+  const char* words = "a driven wheel needs no slip";
+  EXPECT_THAT(soilbin(heavy + "-2%").err, HasSubstr(words));
+  EXPECT_THAT(soilbin(heavy + "5%").err, testing::Not(HasSubstr(words)));
+  EXPECT_THAT(soilbin(heavy + "-40%").err, testing::Not(HasSubstr(words))) << "braked";
+  EXPECT_THAT(soilbin("limits --soil upland-sandy-loam --radius 670mm --width 430mm --load 30kN").err,
+              HasSubstr(words));
+}
+
+TEST(Estimate, DoubtsASlopeOnWhichTheSoilItselfSlides) {
+  const std::string slope = "estimate --radius 650mm --width 400mm --load 5kN --slip 20% --longitudinal-incline ";
+  const char* words = "on this soil slides by itself";
+  EXPECT_THAT(soilbin(slope + "-60deg --soil dry-sand").err, HasSubstr(words));
+  EXPECT_THAT(soilbin(slope + "10deg --soil dry-sand").err, testing::Not(HasSubstr(words)));
+  EXPECT_THAT(soilbin(slope + "10deg --soil heavy-clay").err, testing::Not(HasSubstr(words)))
+      << "6 deg of friction, and 20 kPa of cohesion hold it";
+}
+
 // What is not known of the carcass is in the standard error of a flexible tire.
 TEST(Estimate, CarcassPressureHasADeviation) {
   const auto error = [](const std::string& carcass) {

@@ -248,8 +248,10 @@ TEST(Doubts, ACrossSlopeSteeperThanTheSoilHoldsIsTold) {
   EXPECT_THAT(told_at(24, 0), IsEmpty());
   EXPECT_THAT(told_at(27, 0), ElementsAre(tells(DoubtKind::slides_across, {36.3, 14.4, 37.9})))
       << "both together are more than 80 N cos 27 deg tan 28 deg = 37.9 N";
-  EXPECT_THAT(told_at(29, 0), ElementsAre(tells(DoubtKind::slides_across, {38.8, ""})));
-  EXPECT_THAT(told_at(-29, 0), ElementsAre(tells(DoubtKind::slides_across, {38.8})));  // 80 N sin 29 deg
+  EXPECT_THAT(told_at(29, 0),
+              ElementsAre(tells(DoubtKind::slides_across, {38.8, ""}), tells(DoubtKind::slope_slides, {28})));
+  EXPECT_THAT(told_at(-29, 0), ElementsAre(tells(DoubtKind::slides_across, {38.8}),
+                                           tells(DoubtKind::slope_slides, {28})));  // 80 N sin 29 deg
   EXPECT_THAT(told_at(28, 1000), IsEmpty());
   EXPECT_THAT(told_at(60, 1000), ElementsAre(tells(DoubtKind::slides_across)));
 }
