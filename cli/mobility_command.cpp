@@ -10,7 +10,7 @@
 #include "cli/commands.hpp"
 #include "cli/described_flags.hpp"
 #include "cli/outputs.hpp"
-#include "compare/doubts/quick_model_doubts.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/telling/reports.hpp"
 #include "cone_index/vehicle.hpp"
 #include "scenario/case.hpp"

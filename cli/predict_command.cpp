@@ -8,7 +8,6 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/doubts/quick_model_doubts.hpp"
 #include "compare/measured/campaign.hpp"
 #include "compare/sweep/prediction.hpp"
 #include "compare/telling/loop_report.hpp"

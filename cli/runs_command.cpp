@@ -6,7 +6,6 @@
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
-#include "cli/text_output.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/measured/time_log.hpp"
 #include "compare/report/json_fields.hpp"

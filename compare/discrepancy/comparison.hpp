@@ -2,7 +2,7 @@
 //
 //   const std::vector<Side> sides = {side_of(analytic), side_of("dem", runs, question.study.conditions)};
 //   const Comparison comparison = compare_sides(question, {analytic.choice}, sides);
-//   for (const Clause& clause : summary(comparison)) fmt::print("{}\n", clause.text);  // telling/comparison_words.hpp
+//   for (const Clause& clause : summary(comparison)) fmt::print("{}\n", clause.text);  // telling/comparison_report.hpp
 #pragma once
 
 #include "compare/discrepancy/difference.hpp"

@@ -1,5 +1,3 @@
-#include "compare/doubts/column_doubts.hpp"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "compare/doubts/doubts.hpp"
 #include "compare/measured/channels.hpp"
 #include "scenario/quantity.hpp"
 

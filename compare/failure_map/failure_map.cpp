@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/design/factor.hpp"
 #include "compare/design/gaussian_process.hpp"
-#include "compare/design/space_filling.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

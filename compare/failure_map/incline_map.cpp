@@ -5,7 +5,7 @@
 
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/model.hpp"
-#include "compare/design/space_filling.hpp"
+#include "compare/design/factor.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/recorded/record.hpp"
 #include "compare/sweep/answers.hpp"

@@ -11,7 +11,7 @@
 //     and where the residual is more than named effects explain:
 //       attribute_with_model_discrepancy                                attribution/model_discrepancy.hpp
 //       learn_effects    smooth functions of the conditions             attribution/learned_effect.hpp
-//       find_formula     a few terms in the place of one                attribution/learned_formula.hpp
+//       find_formula     a few terms in the place of one                attribution/learned_effect.hpp
 //   6 cross_validate     -> CrossValidation: honest errors              attribution/validation.hpp
 //   7 next_test          -> NextRun                                    test_design/next_run.hpp
 //   8 LoopAnswer, and what it implies                                   findings.cpp; told by telling/loop_report.hpp
@@ -25,7 +25,7 @@
 #include <variant>
 #include <vector>
 
-#include "compare/attribution/learned_formula.hpp"
+#include "compare/attribution/learned_effect.hpp"
 #include "compare/attribution/validation.hpp"
 #include "compare/attribution/verdict.hpp"
 #include "compare/test_design/next_run.hpp"

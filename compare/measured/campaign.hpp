@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -72,7 +73,7 @@ struct Campaign {
   std::map<std::string, DataColumn>
       columns;  ///< of the data file, by quantity; without a file, those that campaign.yaml names
   std::vector<Run> runs;
-  std::vector<IgnoredColumn> ignored{};  ///< they may tell that the rows are no runs (doubts/log_signs.hpp)
+  std::vector<IgnoredColumn> ignored{};  ///< they may tell that the rows are no runs (doubts/row_doubts.cpp)
   std::optional<Estimate> cone_index{}, cone_index_gradient{};  ///< as of a Soil; read by the model cone_index alone
 };
 
@@ -120,5 +121,10 @@ std::map<std::string, DataColumn> declared_columns(const std::filesystem::path& 
 /// Writes campaign.yaml and the data file into a folder (made where it is missing). Reading them gives the same
 /// campaign; an angle may differ in the last bit. Throws std::runtime_error where a file can't be written.
 void write_campaign(const std::filesystem::path& folder, const Campaign& campaign, const EffectVocabulary& effects);
+
+// soilbin-campaign/1 as JSON Schema, made from the descriptions that the reader visits.
+
+/// Schema of campaign.yaml.
+nlohmann::ordered_json campaign_schema(const EffectVocabulary& effects);
 
 }  // namespace soilbin::compare

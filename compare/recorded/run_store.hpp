@@ -11,6 +11,7 @@
 
 #include "compare/recorded/kept_file.hpp"
 #include "compare/recorded/record.hpp"
+#include "compare/report/table.hpp"
 
 namespace soilbin::compare {
 
@@ -58,5 +59,14 @@ class RunStore {
 
 /// The run of a spec: the store's, or made now and added to it.
 RecordedRun obtain(const RunSpec& spec, RunStore& store, const std::function<RecordedRun(const RunSpec&)>& make);
+
+// A record told to a person: how many runs it holds of which packing, who made them, and whether they hang on the time
+// step. `soilbin record show` prints it.
+
+/// A row a packing: runs, those with a result, those that became steady, seconds of work.
+Table packings_table(const Record& record);
+
+/// Model, makers, hash of the inputs; packings_table; a line for each pair of the time step (step_pair.hpp).
+std::string in_words(const NamedRecord& record);
 
 }  // namespace soilbin::compare

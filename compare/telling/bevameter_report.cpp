@@ -33,14 +33,12 @@ Sheet bevameter_sheet(const std::string& title, std::span<const PlateSet> plates
   };
   const auto add = [](Plot& plot, const std::string& label, int color, const std::vector<double>& x,
                       const std::vector<double>& y, const auto& fitted) {
-    Series points{label}, line{label, {}, {}, {}};
-    points.mark = Mark::points, points.color = line.color = color;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      points.x.push_back(milli * x[k]), points.y.push_back(kilo * y[k]);
-      line.x.push_back(milli * x[k]), line.y.push_back(kilo * fitted(x[k]));
-    }
+    Series points{.label = label, .mark = Mark::points, .color = color};
+    for (std::size_t k = 0; k < x.size(); ++k) points.x.push_back(milli * x[k]), points.y.push_back(kilo * y[k]);
     plot.series.push_back(std::move(points));
-    plot.series.push_back(std::move(line));
+    plot.series.push_back(over_samples(
+        {.label = label, .color = color}, x, [](double at) { return milli * at; },
+        [&](double at) { return kilo * fitted(at); }));
   };
   for (const PlateSet& set : plates)
     for (const bekker_wong::PlateCurve& plate : set) {

@@ -1,4 +1,3 @@
-#include "compare/telling/comparison_sheets.hpp"
 
 #include <fmt/core.h>
 
@@ -13,7 +12,7 @@
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/varying.hpp"
-#include "compare/telling/comparison_words.hpp"
+#include "compare/telling/comparison_report.hpp"
 #include "scenario/estimate.hpp"
 #include "scenario/unit.hpp"
 

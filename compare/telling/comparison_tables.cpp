@@ -1,4 +1,3 @@
-#include "compare/telling/comparison_tables.hpp"
 
 #include <fmt/core.h>
 #include <fmt/format.h>
@@ -10,7 +9,7 @@
 #include "compare/discrepancy/causes.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
-#include "compare/telling/comparison_words.hpp"
+#include "compare/telling/comparison_report.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -1,5 +1,3 @@
-#include "compare/telling/comparison_words.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/comparison_report.hpp"
 #include "compare/telling/loop_report.hpp"
 #include "scenario/estimate.hpp"
 
@@ -81,16 +80,9 @@ std::string where_of(const Comparison& comparison, std::size_t condition) {
 /// Share of the squared difference that other soil values within their declared uncertainty would take away.
 double taken_by_the_soil(const JointTest& test) { return 1.0 - test.chi2 / test.chi2_soil_exact; }
 
-std::string rest_called(JointVerdict verdict) {
-  switch (verdict) {
-    case JointVerdict::significant:
-      return "significant";
-    case JointVerdict::noise:
-      return "noise";
-    case JointVerdict::undecided:
-      return "not decided (too few re-runs)";
-  }
-  return "";
+const char* rest_called(JointVerdict verdict) {
+  constexpr std::array words = {"significant", "noise", "not decided (too few re-runs)"};
+  return words[static_cast<std::size_t>(verdict)];
 }
 
 Clause joint_clause(const Comparison& comparison, const JointTest& test) {

@@ -16,7 +16,6 @@
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/bars.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/telling/loop_sheets.hpp"
 
 namespace soilbin::compare {
 namespace {

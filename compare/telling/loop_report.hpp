@@ -12,12 +12,13 @@
 
 #include "compare/doubts/doubt.hpp"
 #include "compare/loop/loop.hpp"
+#include "compare/report/plot.hpp"
 #include "compare/report/report.hpp"
 #include "scenario/case.hpp"
 
 namespace soilbin::compare {
 
-// Answers for programs (loop_data.cpp, loop_model.cpp).
+// Answers for programs (loop_data.cpp).
 
 /// The answer as JSON, soilbin-loop/1.
 nlohmann::ordered_json to_json(const LoopAnswer& answer);
@@ -125,5 +126,29 @@ Table soil_table(const LoopAnswer& answer);
 /// folded what stands behind it. `doubts`: in the campaign (doubts_before_fit); those of mistaken columns open the
 /// headline. All outlive the report.
 Report report_on(const Campaign& campaign, const LoopAnswer& answer, const Doubts& doubts);
+
+// The figures of a loop's answer: measured values beside the model before and after. Before: the base model, its soil
+// refitted. After: the model with the effects that the answer's model uses. Colours and names are the same in all of
+// them.
+
+/// The curves against slip that a figure of the fit shows: (name of the curve, its rows), the one that the effects
+/// change most first. Empty where the runs do not lie on curves against slip: fewer than half of
+/// them have three others at other slips under the same conditions, or there are more than a dozen curves.
+std::vector<std::pair<std::string, std::vector<int>>> curves_of_the_fit(const LoopAnswer& answer);
+
+/// Each channel of these rows against slip, with both models at the mean of the rows' conditions.
+Sheet fit_sheet(const LoopAnswer& answer, const std::vector<int>& rows);
+
+/// What the base model misses in each channel's unit over one variable, beside what the effects change.
+Sheet gap_sheet(const LoopAnswer& answer, const Covariate& x);
+
+/// Residuals over one variable before and after [sd of the noise].
+Sheet residual_sheet(const LoopAnswer& answer, const Covariate& x);
+
+/// The effects' change of the prediction over the base model's residual [sd of the noise].
+Sheet signature_sheet(const LoopAnswer& answer, const Covariate& x);
+
+/// The variables of the campaign, first the one on which the effects' change depends most.
+std::vector<Covariate> variables_by_weight(const LoopAnswer& answer);
 
 }  // namespace soilbin::compare

@@ -102,7 +102,7 @@ Json mobility_json(const Mobility& mobility) {
                    {"vci50", index.fifty_passes},
                    {"mean_maximum_pressure", mobility.pressure ? Json(mobility.pressure->value) : Json()},
                    {"mmp_factor", mobility.pressure ? Json(mobility.pressure->factor) : Json()},
-                   {"rating_cone_index", mobility.rating ? estimate_json(*mobility.rating) : Json()}};
+                   {"rating_cone_index", or_null(mobility.rating)}};
   document["passages"] = Json::array();
   if (mobility.passages)
     for (const Passage& one : *mobility.passages)

@@ -42,25 +42,18 @@ Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFi
     double deepest = 0.0;
     for (const MeasuredPlate& measured : plates) {
       if (measured.curve.radius != fit.radii[k] || is_aside(measured)) continue;
-      Series points{.label = plate + ", measured", .mark = Mark::points};
-      points.color = static_cast<int>(k);
+      Series points{.label = plate + ", measured", .mark = Mark::points, .color = static_cast<int>(k)};
       const PlateCurve used =
           within(readings_of(measured.curve, loading_curve(measured.curve).readings), {fit.lowest, fit.highest});
       add(points, used, everywhere, everywhere);
       deepest = std::max(deepest, *std::ranges::max_element(used.sinkage));
       plot.series.push_back(std::move(points));
     }
-    Series line{.label = plate + ", Bekker's form"};
-    line.color = static_cast<int>(k);
-    for (int i = 0; i <= 100; ++i) {
-      const double z = deepest * i / 100;
-      line.x.push_back(1e3 * z), line.y.push_back(1e-3 * bekkers_form(fit, fit.radii[k], z));
-    }
     most = std::max(most, deepest);
-    plot.series.push_back(std::move(line));
+    plot.series.push_back(fitted_curve(plate + ", Bekker's form", static_cast<int>(k), deepest,
+                                       [&](double z) { return 1e-3 * bekkers_form(fit, fit.radii[k], z); }));
   }
-  Series aside{.label = "set aside", .mark = Mark::points};
-  aside.color = static_cast<int>(fit.radii.size());
+  Series aside{.label = "set aside", .mark = Mark::points, .color = static_cast<int>(fit.radii.size())};
   for (const MeasuredPlate& measured : plates) {
     std::vector<std::size_t> places;
     for (const PlateReadingsAside& one : fit.aside)
@@ -222,25 +215,24 @@ Json plates_json(const MeasuredPlatesFit& fit, std::size_t tests) {
     document["k_c"] = nullptr, document["k_phi"] = nullptr;
   }
   document["readings"] = fit.readings;
-  document["set_aside"] = Json::array();
-  for (const PlateReadingsAside& one : fit.aside) {
+  document["set_aside"] = list_of(fit.aside, [](const PlateReadingsAside& one) {
     Json aside = {{"test", one.test},
                   {"radius", one.radius},
                   {"why", word(one.readings.why)},
                   {"readings", one.readings.readings.size()},
                   {"lines", one.lines}};
     if (one.readings.unloading_stiffness) aside["unloading_stiffness"] = finite(*one.readings.unloading_stiffness);
-    document["set_aside"].push_back(std::move(aside));
-  }
-  document["disagreeing_tests"] = Json::array();
-  for (const PlateTestApart& one : fit.apart)
-    document["disagreeing_tests"].push_back({{"test", one.test},
-                                             {"radius", one.radius},
-                                             {"first_line", one.first_line},
-                                             {"last_line", one.last_line},
-                                             {"factor", finite(one.apart.factor)},
-                                             {"as_if", one.apart.unit},
-                                             {"set_aside", one.apart.set_aside}});
+    return aside;
+  });
+  document["disagreeing_tests"] = list_of(fit.apart, [](const PlateTestApart& one) {
+    return Json{{"test", one.test},
+                {"radius", one.radius},
+                {"first_line", one.first_line},
+                {"last_line", one.last_line},
+                {"factor", finite(one.apart.factor)},
+                {"as_if", one.apart.unit},
+                {"set_aside", one.apart.set_aside}};
+  });
   document["with_all_kept"] = nullptr;
   if (fit.kept)
     document["with_all_kept"] = {

@@ -54,17 +54,16 @@ Table runs_table(const Prediction& prediction) {
   return table;
 }
 
-Table channel_errors_table(const Prediction& prediction) {
-  Table table{"", {"channel", "runs", "rms error", "bias (predicted - measured)", "measured range", "rms/range [%]"}};
-  for (const ChannelError& error : prediction.errors) {
-    const auto in_unit = [&](double si) { return compare::in_unit(error.channel, si); };
-    table.add({std::string(channel_views[error.channel].title), std::to_string(error.runs), in_unit(error.rmse),
-               in_unit(error.bias), in_unit(error.range), number(100 * error.share_of_range)});
-  }
+}  // namespace
+
+Table channel_errors_table(const Prediction& prediction, std::string caption, std::vector<std::string> header) {
+  Table table{std::move(caption), std::move(header)};
+  for (const ChannelError& error : prediction.errors)
+    table.add({std::string(channel_views[error.channel].title), std::to_string(error.runs),
+               in_unit(error.channel, error.rmse), in_unit(error.channel, error.bias),
+               in_unit(error.channel, error.range), number(100 * error.share_of_range)});
   return table;
 }
-
-}  // namespace
 
 Report report_on(const Prediction& prediction, const Campaign& campaign, const Scenario& asked,
                  const std::string& soil_from) {
@@ -83,7 +82,9 @@ Report report_on(const Prediction& prediction, const Campaign& campaign, const S
   for (const PredictedRun& run : prediction.runs)
     if (!run.predicted.result) unsolved.push_back(fmt::format("run {}: no solution: {}", run.run, run.predicted.error));
   if (!unsolved.empty()) report.add(Sentences(unsolved));
-  report.add("How far off", channel_errors_table(prediction));
+  report.add("How far off", channel_errors_table(prediction, "",
+                                                 {"channel", "runs", "rms error", "bias (predicted - measured)",
+                                                  "measured range", "rms/range [%]"}));
   report.data = [&] { return to_json(prediction, campaign.name); };
   report.csv = [&] { return prediction_csv(prediction, remarks_on(campaign, asked, prediction)); };
   return report;

@@ -209,8 +209,7 @@ Json reproduction_json(const Reproduction& reproduction) {
         one["value"] = finite(evidence.interval->value);
         one["lower"] = finite(evidence.interval->lower), one["upper"] = finite(evidence.interval->upper);
       }
-      one["missing"] = Json::array();
-      for (const OperatingCondition& at : evidence.missing) one["missing"].push_back(to_json(at));
+      one["missing"] = list_of(evidence.missing, [](const OperatingCondition& at) { return to_json(at); });
       answers[reproduction.labels[k]] = std::move(one);
     }
     document["rows"].push_back({{"id", finding.id},

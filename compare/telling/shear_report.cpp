@@ -19,22 +19,16 @@ Sheet shear_sheet(std::span<const MeasuredShear> tests, const MeasuredShearFit& 
   for (std::size_t k = 0; k < tests.size(); ++k) {
     const ShearCurve& curve = tests[k].curve;
     const std::string name = fmt::format("{} kPa", number(curve.normal_stress / 1e3, 3));
-    Series points{.label = name + ", measured", .mark = Mark::points};
-    points.color = static_cast<int>(k);
+    Series points{.label = name + ", measured", .mark = Mark::points, .color = static_cast<int>(k)};
     const std::size_t every = curve.displacement.size() / 60 + 1;  // more points than these hide each other
     for (std::size_t i = 0; i < curve.displacement.size(); i += every)
       points.x.push_back(1e3 * curve.displacement[i]), points.y.push_back(1e-3 * curve.shear_stress[i]);
     plot.series.push_back(std::move(points));
     const ShearTestFit& one = fit.tests[k];
     const double to = one.residual ? one.peak_at : *std::ranges::max_element(curve.displacement);
-    Series line{.label = name + ", Janosi's curve"};
-    line.color = static_cast<int>(k);
-    for (int i = 0; i <= 100; ++i) {
-      const double j = to * i / 100;
-      line.x.push_back(1e3 * j);
-      line.y.push_back(-1e-3 * one.janosi.shear_max * std::expm1(-j / one.janosi.modulus));
-    }
-    plot.series.push_back(std::move(line));
+    plot.series.push_back(fitted_curve(name + ", Janosi's curve", static_cast<int>(k), to, [&](double j) {
+      return -1e-3 * one.janosi.shear_max * std::expm1(-j / one.janosi.modulus);
+    }));
   }
   return {title, {plot}, Palette::named};
 }
@@ -104,7 +98,7 @@ Json shear_json(const MeasuredShearFit& fit, std::span<const MeasuredShear> test
   Json document = {{"format", "soilbin-shear/1"}, {"one_normal_stress", fit.one_stress}};
   for (const auto& [p, value] : shear_values(fit)) document[p.name] = estimate_json(value);
   document["cohesion_as_fitted"] = fit.cohesion_as_fitted;
-  document["residual_angle"] = fit.residual_angle ? estimate_json(*fit.residual_angle) : Json();
+  document["residual_angle"] = or_null(fit.residual_angle);
   document["tests"] = Json::array();
   for (std::size_t k = 0; k < tests.size(); ++k) {
     const ShearTestFit& one = fit.tests[k];
@@ -116,7 +110,7 @@ Json shear_json(const MeasuredShearFit& fit, std::span<const MeasuredShear> test
                                  {"rms", one.janosi.rms},
                                  {"peak", one.peak},
                                  {"peak_at", one.peak_at},
-                                 {"residual", one.residual ? Json(*one.residual) : Json()}});
+                                 {"residual", or_null(one.residual)}});
   }
   return document;
 }

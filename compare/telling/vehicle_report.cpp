@@ -44,19 +44,8 @@ std::string failure_in_words(const VehicleAnswers& answers, const VehicleFailure
 }
 
 const char* failure_word(GaveOut why) {
-  switch (why) {
-    case GaveOut::wheel:
-      return "wheel";
-    case GaveOut::pull:
-      return "pull";
-    case GaveOut::hold:
-      return "hold";
-    case GaveOut::tips_over:
-      return "tips_over";
-    case GaveOut::slides:
-      return "slides";
-  }
-  return "";
+  constexpr std::array words = {"wheel", "pull", "hold", "tips_over", "slides"};  // in the order of its values
+  return words[static_cast<std::size_t>(why)];
 }
 
 std::string condition_in_words(const VehicleCondition& at) {
@@ -267,14 +256,13 @@ Sheet vehicle_sheet(const VehicleAnswers& answers) {
   }
   sheet.plots[0].series.push_back(std::move(pull));
   for (std::size_t i = 0; i < answers.wheels.size(); ++i) {
-    Series sinkage{answers.wheels[i].name};
-    sinkage.color = static_cast<int>(i) % 6;
-    sinkage.dash = static_cast<int>(i) / 6;
-    for (const VehiclePullRow& row : answers.pulls) {
-      sinkage.x.push_back(100 * row.slip);
-      sinkage.y.push_back(row.vehicle ? 1e3 * row.vehicle->wheels[i].result.sinkage.value : not_a_number);
-    }
-    sheet.plots[1].series.push_back(std::move(sinkage));
+    const auto number = static_cast<int>(i);
+    sheet.plots[1].series.push_back(over_samples(
+        {.label = answers.wheels[i].name, .color = number % 6, .dash = number / 6}, answers.pulls,
+        [](const VehiclePullRow& row) { return 100 * row.slip; },
+        [i](const VehiclePullRow& row) {
+          return row.vehicle ? 1e3 * row.vehicle->wheels[i].result.sinkage.value : not_a_number;
+        }));
   }
   return sheet;
 }
@@ -307,7 +295,7 @@ Json wheel_json(const VehicleWheel& about, const SteadyWheel& wheel, const Stead
 }
 
 Json limit_json(const VehicleAnswers& answers, const VehicleLimit& limit) {
-  Json json = {{"slope", limit.angle ? estimate_json(*limit.angle) : Json()}};
+  Json json = {{"slope", or_null(limit.angle)}};
   if (!limit.angle) return json;
   json["slip"] = limit.slip;
   json["beyond"] = failure_json(answers, limit.beyond);
@@ -344,11 +332,9 @@ Json steady_vehicle_json(const VehicleAnswers& answers) {
 
 Json map_json(const GoMap& map) {
   Json json = {{"samples", map.samples}, {"slopes", map.slopes}, {"headings", map.headings}};
-  json["chance"] = Json::array();
-  for (const auto& row : map.cells) {
-    Json& to = json["chance"].emplace_back(Json::array());
-    for (const GoCell& cell : row) to.push_back(estimate_json({cell.chance, cell.std_error}));
-  }
+  json["chance"] = list_of(map.cells, [](const std::vector<GoCell>& row) {
+    return list_of(row, [](const GoCell& cell) { return estimate_json({cell.chance, cell.std_error}); });
+  });
   return json;
 }
 
@@ -365,14 +351,13 @@ Json vehicle_json(const VehicleAnswers& answers) {
                           {"down", limit_json(answers, answers.down)},
                           {"across", limit_json(answers, answers.across)}};
   document["map"] = answers.map ? map_json(*answers.map) : Json();
-  document["pulls"] = Json::array();
-  for (const VehiclePullRow& row : answers.pulls) {
+  document["pulls"] = list_of(answers.pulls, [&](const VehiclePullRow& row) {
     Json json = {{"slip", row.slip}};
     json["pull"] = row.vehicle ? estimate_json({row.vehicle->pull, row.pull_error}) : Json();
     json["into_wheels"] = row.vehicle ? finite(row.vehicle->power.into_wheels) : Json();
     if (row.failure) json["failure"] = failure_json(answers, *row.failure);
-    document["pulls"].push_back(std::move(json));
-  }
+    return json;
+  });
   return document;
 }
 

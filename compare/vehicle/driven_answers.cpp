@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/vehicle/doubtful_numbers.hpp"
+#include "compare/vehicle/vehicle.hpp"
 
 namespace soilbin::compare {
 namespace {

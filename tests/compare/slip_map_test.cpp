@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/telling/export_reports.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
