@@ -83,7 +83,6 @@ void read_shares(CalibrateOptions& asked) {
                                         {"-", {.lower = 0, .upper = 1, .lower_open = true, .upper_open = true}});
 }
 
-/// What is calibrated: a contact of a soil, by a test.
 struct Calibrated {
   const Soil& soil;
   ContactKind kind;

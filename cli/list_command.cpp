@@ -9,7 +9,7 @@
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/report/json_fields.hpp"
 #include "scenario/contents.hpp"
 #include "scenario/errors.hpp"

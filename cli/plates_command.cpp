@@ -1,5 +1,4 @@
 // soilbin plates: measured plate tests, and the n, k_c and k_phi that they give.
-#include <fmt/core.h>
 
 #include <filesystem>
 #include <memory>

@@ -7,7 +7,6 @@
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/soil_bin.hpp"
-#include "compare/recorded/run_specs.hpp"
 #include "compare/recorded/run_store.hpp"
 #include "compare/recorded/step_pair.hpp"
 #include "scenario/atomic_file.hpp"

@@ -1,7 +1,6 @@
 // soilbin run: a study, by each of its models at each of its conditions.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 

@@ -6,7 +6,7 @@
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/measured/time_log.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/sweep/result_json.hpp"

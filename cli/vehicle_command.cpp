@@ -1,7 +1,6 @@
 // soilbin vehicle: a vehicle's wheels on soil: does it go, how steep, and which wheel gives out.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <set>
 #include <utility>
@@ -15,7 +14,7 @@
 #include "cli/question.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/telling/reports.hpp"
-#include "compare/vehicle/driven_answers.hpp"
+#include "compare/vehicle/vehicle_answers.hpp"
 
 namespace soilbin::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "bekker_wong/model.hpp"
 #include "cli/progress.hpp"
 #include "cli/serve/controls.hpp"
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/plot.hpp"

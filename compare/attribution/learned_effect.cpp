@@ -7,7 +7,7 @@
 #include "bekker_wong/learned.hpp"
 #include "compare/attribution/choice.hpp"
 #include "compare/fit/factorizations.hpp"
-#include "compare/fit/pooled_runs.hpp"
+#include "compare/fit/fitted_model.hpp"
 #include "compare/fit/thresholds.hpp"
 
 namespace soilbin::compare {

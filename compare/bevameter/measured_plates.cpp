@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 
 #include "bekker_wong/gsl.hpp"
 #include "compare/measured/outliers.hpp"

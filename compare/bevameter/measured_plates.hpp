@@ -31,7 +31,6 @@ namespace soilbin::compare {
 // as four more tests would tell, from what re-tests scatter (a moderated t: Smyth 2004, Stat. Appl. Genet. Mol. Biol.
 // 3:3).
 
-/// Of one test.
 struct TestLevel {
   double radius = 0.0;      ///< b [m]
   double ln_modulus = 0.0;  ///< ln k at the n of all tests [ln N/m^(n+2)]
@@ -113,9 +112,7 @@ struct MeasuredPlatesFit {
 /// fewer than six readings on its loading curve in the window.
 MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, const PressureWindow& window = {});
 
-/// The readings at these places of a curve.
 bekker_wong::PlateCurve readings_of(const bekker_wong::PlateCurve& curve, const std::vector<std::size_t>& places);
-/// The readings of a curve in a window.
 bekker_wong::PlateCurve within(const bekker_wong::PlateCurve& curve, const PressureWindow& window);
 /// The pressure [Pa] that the fit gives a plate of this b [m] at this sinkage [m].
 double bekkers_form(const MeasuredPlatesFit& fit, double radius, double sinkage);

@@ -8,7 +8,7 @@
 
 #include "compare/discrepancy/side.hpp"
 #include "compare/fit/factorizations.hpp"
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 #include "scenario/unit.hpp"

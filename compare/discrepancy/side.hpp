@@ -15,7 +15,7 @@
 #include "compare/doubts/doubt.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/fit/noise_floor.hpp"
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/sweep/answers.hpp"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "compare/doubts/doubts.hpp"
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "scenario/quantity.hpp"
 
 namespace soilbin::compare {

@@ -24,7 +24,7 @@
 //
 // Three things have theirs with them: recorded runs, whether they hang on the time step (recorded/step_pair.hpp); a
 // side of a comparison, how many runs are behind a point (discrepancy/side.cpp, measured_side.cpp); a failure map,
-// experiments of an earlier engine (failure_map/learned_map.cpp).
+// experiments of an earlier engine (failure_map/incline_map.cpp).
 #pragma once
 
 #include <functional>

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "compare/doubts/doubts.hpp"
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/measured/stretches.hpp"
 #include "compare/measured/time_log.hpp"

@@ -22,6 +22,7 @@
 #include "scenario/library.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/source_text.hpp"
+#include "scenario/traction_channels.hpp"
 
 namespace soilbin::compare {
 
@@ -124,7 +125,20 @@ void write_campaign(const std::filesystem::path& folder, const Campaign& campaig
 
 // soilbin-campaign/1 as JSON Schema, made from the descriptions that the reader visits.
 
-/// Schema of campaign.yaml.
 nlohmann::ordered_json campaign_schema(const EffectVocabulary& effects);
+
+// The four measured channels (drawbar pull, torque, sinkage, lateral force) as members of a run, so that code can go
+// over them.
+
+struct ChannelView : TractionChannel {
+  std::optional<double> Run::*measured;
+};
+
+inline constexpr std::array<ChannelView, 4> channel_views = {{
+    {traction_channels[0], &Run::drawbar_pull},
+    {traction_channels[1], &Run::torque},
+    {traction_channels[2], &Run::sinkage},
+    {traction_channels[3], &Run::lateral_force},
+}};
 
 }  // namespace soilbin::compare

@@ -28,7 +28,6 @@ struct PageAbout {
   std::vector<std::string> doubts{};  ///< in what the page says (compare/doubts/doubts.hpp)
 };
 
-/// A row of key figures.
 struct KeyFigure {
   std::string value, meaning;
 };

@@ -69,6 +69,12 @@ void keep_models(Study& study, ModelKind kind) {
   label_models(study.models);
 }
 
+std::vector<OperatingCondition> conditions_of(const std::vector<Answer>& answers) {
+  std::vector<OperatingCondition> all;
+  for (const Answer& answer : answers) all.push_back(answer.at);
+  return all;
+}
+
 bool any_result(const std::vector<ModelAnswers>& study) {
   return std::ranges::any_of(study, [](const ModelAnswers& model) {
     return std::ranges::any_of(model.answers, [](const Answer& a) { return a.result.has_value(); });

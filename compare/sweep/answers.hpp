@@ -54,7 +54,8 @@ std::vector<ModelAnswers> run_study(const Case& question, const Progress& progre
 /// Leaves out a study's models of every other kind; where it has none of this one, it gets that without effects.
 void keep_models(Study& study, ModelKind kind);
 
-/// Whether any answer of a study holds a result.
+std::vector<OperatingCondition> conditions_of(const std::vector<Answer>& answers);
+
 bool any_result(const std::vector<ModelAnswers>& study);
 
 }  // namespace soilbin::compare

@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "compare/doubts/doubts.hpp"
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/table.hpp"
 #include "compare/sweep/answer_sheets.hpp"
@@ -23,12 +23,6 @@
 
 namespace soilbin::compare {
 namespace {
-
-std::vector<OperatingCondition> conditions_answered(const std::vector<Answer>& answers) {
-  std::vector<OperatingCondition> all;
-  for (const Answer& answer : answers) all.push_back(answer.at);
-  return all;
-}
 
 bool any_side_force(const std::vector<ModelAnswers>& study) {
   for (const ModelAnswers& model : study)
@@ -209,7 +203,7 @@ std::vector<ReportPart> study_parts(const std::vector<ModelAnswers>& study) {
   const bool side = any_side_force(study);
   std::vector<ReportPart> parts;
   for (const ModelAnswers& model : study) {
-    const Curves curves = curves_against_slip(conditions_answered(model.answers), Spread::exact);
+    const Curves curves = curves_against_slip(conditions_of(model.answers), Spread::exact);
     std::vector<std::string> header;
     if (!curves.varying.empty()) header.push_back(curves.varying);
     header.push_back("slip [%]");

@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
 
-#include "compare/discrepancy/causes.hpp"
+#include "compare/discrepancy/comparison.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "compare/discrepancy/causes.hpp"
+#include "compare/discrepancy/comparison.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/model_names.hpp"

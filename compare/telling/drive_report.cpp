@@ -217,7 +217,6 @@ Table happenings_table(const std::vector<DriveHappening>& happenings) {
   return table;
 }
 
-/// A row for each uncertain value: what a standard deviation of it does to the drive.
 Table errors_table(const DriveErrors& errors) {
   Table table{"What a standard deviation of each value does",
               {"", "as declared", "a standard deviation lower", "higher"},
@@ -349,7 +348,6 @@ Json errors_json(const DriveErrors& errors) {
   });
 }
 
-/// soilbin-drive/1
 Json drive_json(const AnalyticDrive& part) {
   const bekker_wong::DriveRecord& record = part.record;
   const DriveSample& end = record.samples.back();
@@ -622,7 +620,6 @@ Sheet drive_sheet(const DriveSides& drive) {
   return sheet;
 }
 
-/// soilbin-drive-sides/1
 Json drive_json(const DriveSides& drive) {
   Json document = {{"format", "soilbin-drive-sides/1"},
                    {"case", drive.question.name},

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/failure_map/learned_map.hpp"
+#include "compare/failure_map/incline_map.hpp"
 #include "compare/recorded/record.hpp"
 #include "compare/report/heat_map.hpp"
 #include "compare/report/json_fields.hpp"
@@ -396,7 +396,6 @@ Table coordinates_table(const FailureMapResult& result) {
   return table;
 }
 
-/// What lugs bring, by both models.
 Table lugs_table(const FailureMapResult& result) {
   const std::vector<Factor>& factors = result.question.factors;
   const Factor& lugs = factors[map_lug_height];

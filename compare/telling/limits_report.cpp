@@ -85,7 +85,6 @@ std::vector<std::string> words_on_slopes(const WheelLimits& answer) {
   return words;
 }
 
-/// A row of soilbin-limits/1.
 Json limits_row(const WheelLimits& answer) {
   Json row = {{"label", answer.model.label}};
   row.update(to_json(answer.at));

@@ -26,24 +26,19 @@ Json presumes_json(const std::vector<const bekker_wong::EffectForm*>& forms, con
 }
 
 Json effects_json(const std::vector<AcceptedEffect>& effects, const Tire& wheel) {
-  Json list = Json::array();
-  for (const AcceptedEffect& effect : effects) {
+  return list_of(effects, [&](const AcceptedEffect& effect) {
     Json parameters = Json::object(), ci = Json::object(), bound = Json::array();
     for (const auto& [name, value] : effect.choice.parameters) parameters[name] = finite(value);
     for (std::size_t i = 0; i < effect.fitted.size(); ++i) {
       ci[effect.fitted[i]] = {finite(effect.ci95[i].first), finite(effect.ci95[i].second)};
       if (effect.at_bound[i]) bound.push_back(effect.fitted[i]);
     }
-    list.push_back({{"id", effect.choice.id},
-                    {"form", effect.choice.form},
-                    {"parameters", parameters},
-                    {"ci95", ci},
-                    {"at_bound", bound},
-                    {"p_value", finite(effect.p_value)},
-                    {"cosines", effect.cosines},
-                    {"presumes", presumes_json({&bekker_wong::find_form(effect.choice)}, wheel)}});
-  }
-  return list;
+    return Json{
+        {"id", effect.choice.id},    {"form", effect.choice.form},
+        {"parameters", parameters},  {"ci95", ci},
+        {"at_bound", bound},         {"p_value", finite(effect.p_value)},
+        {"cosines", effect.cosines}, {"presumes", presumes_json({&bekker_wong::find_form(effect.choice)}, wheel)}};
+  });
 }
 
 /// What leaving the accepted effects out does to the soil's values [SI].

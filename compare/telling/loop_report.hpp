@@ -38,7 +38,6 @@ std::string source_of_fit(const std::string& campaign);
 /// What the verdict rests on, and what the effects of the saved model do to the error: one plain sentence.
 std::string reason_words(const LoopAnswer& answer);
 
-/// The verdict as one sentence.
 std::string verdict_sentence(const LoopAnswer& answer);
 
 /// At an unknown effect: what predicts in its place; "" where nothing does.
@@ -61,7 +60,7 @@ std::vector<std::string> explanation(const LoopAnswer& answer);
 /// drawbar pull (5.95 to 6.30 N)".
 std::string held_out_words(const CrossValidation& validation);
 
-// What to measure next (loop_next_runs.cpp): the run that sets the candidates apart (next_run), or where nothing has a
+// What to measure next: the run that sets the candidates apart (next_run), or where nothing has a
 // name the runs that show how the unexplained part depends on a condition.
 
 /// What to measure next, or why no run is proposed: first what to do, then sentences on why. Empty where no question is
@@ -76,7 +75,7 @@ std::string setting(double value);
 std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const OperatingCondition& at,
                                                  const std::string& condition);
 
-// Sets of effects and the evidence for them (loop_evidence.cpp).
+// Sets of effects and the evidence for them.
 
 /// "a", "a and b", "a, b and c".
 std::string joined_with_and(const std::vector<std::string>& words);
@@ -108,7 +107,7 @@ inline constexpr double least_share = 0.005;
 /// A set's share of the evidence as every sentence and table has it: "81 %".
 std::string share_words(double weight);
 
-// Tables (loop_tables.cpp).
+// Tables.
 
 /// The next run as a row: a column each condition, how many runs, what they decide between; of an unknown effect the
 /// rows of shape_series. No row: no run is proposed.

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"

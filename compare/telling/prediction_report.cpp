@@ -5,7 +5,6 @@
 
 #include "compare/doubts/doubts.hpp"
 #include "compare/measured/campaign.hpp"
-#include "compare/measured/channels.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/prediction.hpp"
@@ -19,9 +18,7 @@ namespace {
 
 /// The runs of a campaign under their own labels, measured and predicted (± one standard error).
 Table runs_table(const Prediction& prediction) {
-  std::vector<OperatingCondition> conditions;
-  for (const PredictedRun& run : prediction.runs) conditions.push_back(run.measured.at);
-  const Curves curves = curves_against_slip(conditions, Spread::measured);
+  const Curves curves = curves_against_slip(conditions_of(prediction), Spread::measured);
   const bool labelled =
       std::ranges::any_of(prediction.runs, [](const PredictedRun& run) { return run.measured.setpoint.has_value(); });
   std::vector<std::string> header = {"run"};

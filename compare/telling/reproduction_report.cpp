@@ -166,7 +166,6 @@ std::string claim(const Finding& finding, double scale, const std::string& unit)
   return words;
 }
 
-/// A finding's words, figure and intervals.
 std::vector<ReportPart> parts_of(const ReproducedFinding& row, const std::vector<std::string>& labels) {
   const Finding& finding = row.finding;
   const auto [scale, unit] = shown_in(finding);

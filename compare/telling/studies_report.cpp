@@ -36,9 +36,7 @@ struct Peak {
 
 /// A peak for each curve of a model's answers, in the order of curves_against_slip.
 std::vector<Peak> peaks(const ModelAnswers& model) {
-  std::vector<OperatingCondition> conditions;
-  for (const Answer& answer : model.answers) conditions.push_back(answer.at);
-  const Curves curves = curves_against_slip(conditions, Spread::exact);
+  const Curves curves = curves_against_slip(conditions_of(model.answers), Spread::exact);
   std::vector<Peak> found(curves.labels.size());
   for (std::size_t c = 0; c < found.size(); ++c) found[c].label = curves.labels[c];
   for (std::size_t i = 0; i < model.answers.size(); ++i) {
@@ -229,11 +227,8 @@ Figure curve_figure(const StudyPart& part, const Case& curves, std::vector<Model
   return {std::move(sheet), std::move(caption)};
 }
 
-/// Of answers those on one curve.
 std::vector<Answer> on_curve(const std::vector<Answer>& answers, const std::string& label) {
-  std::vector<OperatingCondition> conditions;
-  for (const Answer& answer : answers) conditions.push_back(answer.at);
-  const Curves curves = curves_against_slip(conditions, Spread::exact);
+  const Curves curves = curves_against_slip(conditions_of(answers), Spread::exact);
   std::vector<Answer> some;
   for (std::size_t i = 0; i < answers.size(); ++i)
     if (curves.labels[curves.curve_of[i]] == label) some.push_back(answers[i]);

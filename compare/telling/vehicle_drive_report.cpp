@@ -9,7 +9,7 @@
 #include "compare/report/number_text.hpp"
 #include "compare/telling/drive_columns.hpp"
 #include "compare/telling/reports.hpp"
-#include "compare/vehicle/driven_answers.hpp"
+#include "compare/vehicle/vehicle_answers.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/unit.hpp"
 
@@ -202,7 +202,6 @@ Json moved_vehicle_json(const MovedVehicleDrive::Side& side) {
           {"travelled", side.travelled}};
 }
 
-/// soilbin-vehicle-drive/1
 Json driven_json(const DrivenAnswers& answers) {
   Json document = {{"format", "soilbin-vehicle-drive/1"},
                    {"vehicle", answers.question.name},
@@ -243,7 +242,6 @@ Json driven_json(const DrivenAnswers& answers) {
   return document;
 }
 
-/// A row for each sample and axle.
 std::string driven_csv(const DrivenAnswers& answers) {
   std::string text;
   for (const DriveColumn<VehicleDriveSample>& column : driven_columns()) text += std::string(column.name) + ",";

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 
 #include "bekker_wong/presumption.hpp"
 #include "scenario/effect_choices.hpp"

@@ -184,7 +184,6 @@ inline constexpr const char* vehicle_case_format = "soilbin-vehicle-case/1";
 /// column and hint.
 VehicleCase parse_vehicle_case(const SourceText& source, const Library& library, const EffectVocabulary& effects);
 
-/// A wheel of a vehicle.
 struct VehicleWheel {
   std::string name{};  ///< "front left"
   std::size_t axle = 0;

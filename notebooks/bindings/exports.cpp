@@ -6,8 +6,8 @@
 
 #include "compare/doubts/doubts.hpp"
 #include "compare/experiments/force_table_file.hpp"
-#include "compare/export/slip_map.hpp"
 #include "compare/export/wheel_fmu.hpp"
+#include "compare/export/wheel_slip.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/telling/reports.hpp"
 #include "notebooks/bindings/scenario.hpp"

@@ -8,7 +8,6 @@
 
 #include "bekker_wong/gsl.hpp"
 #include "compare/design/factor.hpp"
-#include "compare/design/level_effects.hpp"
 #include "compare/design/orthogonal_array.hpp"
 #include "scenario/errors.hpp"
 

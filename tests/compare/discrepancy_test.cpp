@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "compare/comparison_fixture.hpp"
-#include "compare/discrepancy/causes.hpp"
+#include "compare/discrepancy/comparison.hpp"
 #include "compare/doubt_matchers.hpp"
 #include "compare/telling/comparison_report.hpp"
 #include "scenario/errors.hpp"
