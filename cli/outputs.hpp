@@ -6,7 +6,6 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "compare/doubts/doubt.hpp"
 #include "compare/report/number_text.hpp"

@@ -9,7 +9,7 @@
 #include "cli/outputs.hpp"
 #include "compare/bevameter/measured_plates.hpp"
 #include "compare/bevameter/plate_groups.hpp"
-#include "compare/doubts/plate_doubts.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
 

@@ -214,9 +214,9 @@ Term formula_term(const EffectForm& form, const std::vector<FormulaTerm>& terms,
 }
 
 /// The library's columns off what the model's own parameters absorb, as small matrices.
-class Library {
+class TermLibrary {
  public:
-  Library(const MatrixXd& columns, const LinearProblem& problem) {
+  TermLibrary(const MatrixXd& columns, const LinearProblem& problem) {
     MatrixXd padded(problem.residual.size(), columns.cols());
     for (Index k = 0; k < columns.cols(); ++k) padded.col(k) = problem.padded(columns.col(k));
     const MatrixXd off = Projector(problem.nuisance)(padded);
@@ -249,7 +249,7 @@ class Library {
 };
 
 /// Combinations, of most evidence first.
-std::vector<Combination> sorted(std::vector<Combination> all, const Library& library) {
+std::vector<Combination> sorted(std::vector<Combination> all, const TermLibrary& library) {
   std::vector<std::pair<double, Combination>> weighed;
   for (Combination& one : all) weighed.emplace_back(-library.evidence(one), std::move(one));
   std::ranges::sort(weighed);
@@ -259,7 +259,7 @@ std::vector<Combination> sorted(std::vector<Combination> all, const Library& lib
 }
 
 /// These with each further term of the library.
-std::vector<Combination> wider(const std::vector<Combination>& some, const Library& library) {
+std::vector<Combination> wider(const std::vector<Combination>& some, const TermLibrary& library) {
   std::vector<Combination> all;
   for (const Combination& one : some)
     for (int k = 0; k < library.terms(); ++k) {
@@ -307,7 +307,7 @@ std::optional<LearnedFormula> find_formula(const FittedModel& beside, const Lear
   const EffectForm whole = bekker_wong::formula_form(*learned.candidate.terms().back().form, all);
   const auto columns = columns_of_weights(beside, formula_term(whole, all, observations, 1.0));
   if (!columns) return std::nullopt;
-  const Library library(*columns, problem_of(beside));
+  const TermLibrary library(*columns, problem_of(beside));
   std::vector<Combination> best = {{}};
   for (int count = 1; count <= thresholds::max_formula_terms; ++count) {
     best = sorted(wider(best, library), library);

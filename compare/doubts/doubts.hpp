@@ -28,6 +28,8 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,6 +47,11 @@ struct Mobility;
 }
 
 namespace soilbin::compare {
+
+struct MeasuredPlatesFit;
+struct MeasuredShear;
+struct MeasuredShearFit;
+struct PlateGroups;
 
 /// Of a question and the answers to it, by any model. What no answer was found to is not among them: answers say that
 /// themselves. `study` may be empty, and its models need not be all of the question's. `of_models`: what else is
@@ -79,6 +86,16 @@ Remark remarks_about(const Scenario& scenario);
 
 /// A remark for each run of a prediction, on the answer and on the measured row.
 std::vector<std::string> remarks_on(const Campaign& campaign, const Scenario& asked, const Prediction& prediction);
+
+/// Tests that disagree, a sensor that sticks, spikes without number, one size of plate, a modulus below 0, an unusual
+/// n, no test that was repeated, a curve that bends, a form that misses the pressures.
+Doubts doubts(const MeasuredPlatesFit& fit);
+
+/// Of tests fitted apart: those of their readings, one size of plate, a density that no bed had.
+Doubts doubts(const PlateGroups& groups);
+
+/// One normal stress, a cohesion below 0, humps, no test that was repeated.
+Doubts doubts(const MeasuredShearFit& fit, std::span<const MeasuredShear> tests);
 
 // Parts of the list.
 
@@ -137,5 +154,35 @@ Doubts cone_index_doubts(const Scenario& scenario, const std::vector<OperatingCo
 /// A vehicle that does not drive all axles, a cone index taken for a rating, a verdict within its error, a pressure
 /// that can't be told.
 Doubts doubts(const cone_index::Mobility& mobility);
+
+// Warnings on several studies and campaigns together: each doubt once, with the names of all that it applies to.
+//
+//   NamedDoubts named;
+//   for (...) named.add(question.study.name, question, study);
+//   print_warnings(named.all());  // "paper-straight, paper-transverse: the tire's lugs change nothing: ..."
+//
+// Studies of the same wheel on the same grains differ only in the figures of the doubt about coarse grains: it is given
+// once, with the worst figures.
+
+class NamedDoubts {
+ public:
+  /// Those of a study and its answers.
+  void add(const std::string& name, const Case& question, const std::vector<ModelAnswers>& study);
+  /// Those that somebody else has found.
+  void add(const std::string& name, const Doubts& doubts);
+  /// In the order in which they came, each with its names (Doubt::of).
+  Doubts all() const;
+
+ private:
+  struct OnGrains {
+    Scenario scenario;
+    std::vector<ModelAnswers> study;  ///< of all that share the doubt
+  };
+  struct Entry {
+    Doubt doubt;
+    std::optional<OnGrains> grains;  ///< the doubt is made from these
+  };
+  std::vector<Entry> entries_;
+};
 
 }  // namespace soilbin::compare

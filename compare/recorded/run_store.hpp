@@ -63,6 +63,8 @@ std::vector<Piece> shard_of(const std::vector<Piece>& all, const Shard& shard) {
   return mine;
 }
 
+// Records, and their keeper.
+
 /// A record and the file that it was read from, for messages.
 struct NamedRecord {
   std::filesystem::path file;

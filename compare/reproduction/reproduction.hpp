@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/doubts/named_doubts.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/recorded/record.hpp"
 #include "compare/sweep/answers.hpp"

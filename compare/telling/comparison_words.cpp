@@ -10,7 +10,7 @@
 #include "compare/discrepancy/comparison.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/sweep/model_names.hpp"
+#include "compare/sweep/answers.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/comparison_report.hpp"
 #include "compare/telling/loop_report.hpp"

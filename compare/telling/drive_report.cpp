@@ -11,7 +11,7 @@
 #include "compare/drives/drive_sides.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/sweep/model_names.hpp"
+#include "compare/sweep/answers.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/drive_columns.hpp"

@@ -13,7 +13,7 @@
 #include "compare/export/wheel_slip.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/sweep/model_names.hpp"
+#include "compare/sweep/answers.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/reports.hpp"

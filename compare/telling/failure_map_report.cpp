@@ -10,7 +10,6 @@
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answers.hpp"
-#include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/mapping_writer.hpp"

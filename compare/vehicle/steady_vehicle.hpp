@@ -54,6 +54,8 @@ struct CarryingAxle {
 /// all, and the vehicle tips over.
 std::vector<double> axle_loads(const std::vector<CarryingAxle>& axles, double normal, double pitch);
 
+// Its balance.
+
 /// What ended a vehicle's balance.
 enum class GaveOut {
   wheel,      ///< the model has no answer for one of its wheels

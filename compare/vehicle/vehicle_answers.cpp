@@ -148,19 +148,19 @@ SteadyErrors errors_from(const Numbers& errors) {
 }
 
 /// Which way a slope is steep.
-enum class Way { up, down, across };
+enum class SlopeWay { up, down, across };
 
-VehicleCondition on(const VehicleCondition& asked, Way way, double angle) {
+VehicleCondition on(const VehicleCondition& asked, SlopeWay way, double angle) {
   VehicleCondition at = asked;
-  at.slope = way == Way::up ? angle : way == Way::down ? -angle : 0.0;
-  at.cross_slope = way == Way::across ? angle : 0.0;
+  at.slope = way == SlopeWay::up ? angle : way == SlopeWay::down ? -angle : 0.0;
+  at.cross_slope = way == SlopeWay::across ? angle : 0.0;
   return at;
 }
 
 VehicleLimit steepest(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model,
-                      Way way) {
+                      SlopeWay way) {
   const SteadyVehicles vehicles(question, wheels, model);
-  const bool braked = way == Way::down;
+  const bool braked = way == SlopeWay::down;
   const double sign = braked ? -1.0 : 1.0, none = -vehicles.weight();
   VehicleLimit limit;
   const auto spare = [&](double angle) {
@@ -174,7 +174,7 @@ VehicleLimit steepest(const VehicleCase& question, const std::vector<VehicleWhee
   };
   const double level = spare(0.0);
   double low = level >= 0.0 ? 0.0 : -steepest_asked, high = level >= 0.0 ? steepest_asked : 0.0;
-  if (way == Way::across && level < 0.0) return limit;
+  if (way == SlopeWay::across && level < 0.0) return limit;
   if (level < 0.0 && spare(low) < 0.0) return limit;
   if (level >= 0.0 && spare(high) >= 0.0) return limit;
   // By bisection: the spare pull ends at once where the vehicle tips over or slides.
@@ -218,12 +218,12 @@ VehicleLimit steepest(const VehicleCase& question, const std::vector<VehicleWhee
 
 std::array<VehicleLimit, 3> steepest_slopes(const VehicleCase& question, const std::vector<VehicleWheel>& wheels,
                                             const Model& model) {
-  return {steepest(question, wheels, model, Way::up), steepest(question, wheels, model, Way::down),
-          steepest(question, wheels, model, Way::across)};
+  return {steepest(question, wheels, model, SlopeWay::up), steepest(question, wheels, model, SlopeWay::down),
+          steepest(question, wheels, model, SlopeWay::across)};
 }
 
 VehicleLimit steepest_climb(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model) {
-  return steepest(question, wheels, model, Way::up);
+  return steepest(question, wheels, model, SlopeWay::up);
 }
 
 VehicleAnswers answers_of(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model) {

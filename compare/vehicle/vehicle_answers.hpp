@@ -53,6 +53,8 @@ VehicleCondition heading_on(const VehicleCondition& asked, double slope, double 
 GoMap go_map(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model,
              GoMapPlan plan = {});
 
+// The steady state, pull against slip, limits.
+
 /// Why there is no steady vehicle.
 struct VehicleFailure {
   GaveOut why = GaveOut::pull;

@@ -13,7 +13,7 @@
 #include "compare/report/number_text.hpp"
 #include "compare/report/plot.hpp"
 #include "compare/report/plot_panel.hpp"
-#include "compare/sweep/model_names.hpp"
+#include "compare/sweep/answers.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
