@@ -6,7 +6,7 @@
 #include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
-#include "compare/recorded/run_specs.hpp"
+#include "compare/recorded/run_store.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/sealed_json.hpp"
 #include "scenario/atomic_file.hpp"

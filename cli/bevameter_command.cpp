@@ -9,7 +9,6 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
-#include "cli/text_output.hpp"
 #include "compare/bevameter/bevameter.hpp"
 #include "compare/experiments/virtual_bevameter.hpp"
 #include "compare/telling/reports.hpp"

@@ -5,13 +5,11 @@
 #include <memory>
 
 #include "cli/batch_flags.hpp"
+#include "cli/calibrate_flags.hpp"
 #include "cli/commands.hpp"
-#include "cli/contact_test_flags.hpp"
-#include "cli/decision_flags.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
-#include "cli/text_output.hpp"
 #include "compare/calibrate/published_sets.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/telling/calibration_report.hpp"
@@ -85,7 +83,6 @@ void read_shares(CalibrateOptions& asked) {
                                         {"-", {.lower = 0, .upper = 1, .lower_open = true, .upper_open = true}});
 }
 
-/// What is calibrated: a contact of a soil, by a test.
 struct Calibrated {
   const Soil& soil;
   ContactKind kind;

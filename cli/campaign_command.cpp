@@ -7,9 +7,9 @@
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
-#include "cli/text_output.hpp"
 #include "cli/versions.hpp"
 #include "compare/recorded/campaign_of_records.hpp"
 #include "scenario/atomic_file.hpp"

@@ -7,9 +7,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
-#include "cli/text_output.hpp"
+#include "cli/outputs.hpp"
 #include "compare/calibrate/experiment_store.hpp"
-#include "compare/doubts/declared_doubts.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/recorded/step_pair.hpp"

@@ -15,7 +15,6 @@
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/comparison_report.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/nearest_word.hpp"
 
 namespace soilbin::cli {
 namespace {

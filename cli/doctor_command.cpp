@@ -5,7 +5,7 @@
 
 #include "bekker_wong/agreed_points.hpp"
 #include "cli/commands.hpp"
-#include "cli/text_output.hpp"
+#include "cli/outputs.hpp"
 #include "cli/versions.hpp"
 
 namespace soilbin::cli {

@@ -1,8 +1,6 @@
 // soilbin drive: the wheel of a case driven in time, from rest to where it arrives or gets stuck.
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -29,21 +27,13 @@ struct DriveOptions {
   SoilBinFlags soil_bin;
 };
 
-bekker_wong::DriveProgress progress_in_time() {
-  constexpr double parts = 1000.0;
-  return [shown = shown_progress()](double time, double duration) {
-    shown(static_cast<std::size_t>(std::max(1.0, std::floor(parts * time / duration))),
-          static_cast<std::size_t>(parts));
-  };
-}
-
 int threads_of(const DriveOptions& options) {
   return options.soil_bin.threads > 0 ? options.soil_bin.threads : all_cores();
 }
 
 int drive_analytically(const DriveOptions& options, const Case& question, const Session& session) {
   const compare::AnalyticDrive part =
-      compare::run_drive(question, options.samples, progress_in_time(), threads_of(options));
+      compare::run_drive(question, options.samples, shown_progress_in_time(), threads_of(options));
   return publish(compare::report_on(part), options.outputs, compare::doubts(part), session).status(done);
 }
 
@@ -62,8 +52,8 @@ int drive_with_grains(const DriveOptions& options, const Case& question, const S
                               options.soil_bin.packings, {options.soil_bin.replay, source_state()});
   std::vector<compare::DriveSide> sides;
   if (options.model == "both")
-    sides.push_back(
-        compare::analytic_side(compare::run_drive(question, options.samples, progress_in_time(), threads_of(options))));
+    sides.push_back(compare::analytic_side(
+        compare::run_drive(question, options.samples, shown_progress_in_time(), threads_of(options))));
   grains.run();
   sides.insert(sides.end(), grains.sides().begin(), grains.sides().end());
   const compare::DriveSides drive = compare::side_by_side(question, std::move(sides), grains.notes());

@@ -51,7 +51,6 @@ std::vector<double> stresses_of(const ElementTestOptions& options, std::vector<d
   return out;
 }
 
-/// Settings of a test of strength on specimens with these sides.
 template <class Settings>
 Settings strength_settings(const AskedTest& asked, std::initializer_list<double Settings::*> sides) {
   Settings s;
@@ -74,7 +73,6 @@ compare::Report triaxial(const AskedTest& asked) {
   return compare::report_on(dem::triaxial(asked.grains, settings, asked.how, &asked.beds), asked.soil);
 }
 
-/// What a test gives of each packing, of the seeds from the first one on, one behind the other.
 template <class Result>
 std::vector<Result> each_packing(const AskedTest& asked,
                                  const std::function<std::vector<Result>(const dem::SpecimenSettings&)>& run) {

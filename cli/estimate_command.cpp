@@ -1,7 +1,5 @@
 // soilbin estimate: one tire, one soil, one condition (or a case's), answered in plain text.
-#include <fmt/core.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "cli/commands.hpp"

@@ -7,7 +7,7 @@
 #include "cli/outputs.hpp"
 #include "cli/question.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/sweep/sources.hpp"
+#include "compare/sweep/explanation.hpp"
 #include "compare/telling/answer_report.hpp"
 #include "scenario/errors.hpp"
 

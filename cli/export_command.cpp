@@ -9,12 +9,11 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
-#include "compare/doubts/declared_doubts.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/experiments/force_table_file.hpp"
-#include "compare/export/slip_map.hpp"
 #include "compare/export/wheel_fmu.hpp"
+#include "compare/export/wheel_slip.hpp"
 #include "compare/report/json_fields.hpp"
-#include "compare/telling/export_reports.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
@@ -28,7 +27,6 @@ struct TableOptions {
   TireFlags tire;
 };
 
-/// Leaves the question with the model that is asked for.
 void choose_model(Case& question, const TableOptions& options, bool names_effects) {
   if (options.model.empty()) return;
   check_model(options.model, {"bekker_wong", "rft", "cone_index"});
@@ -38,7 +36,6 @@ void choose_model(Case& question, const TableOptions& options, bool names_effect
   compare::keep_models(question.study, kind);
 }
 
-/// The table that is asked for, and what to tell of the question.
 struct AskedTable {
   compare::ForceTable table;
   compare::Doubts doubts;

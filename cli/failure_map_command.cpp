@@ -9,15 +9,15 @@
 #include "cli/batch_flags.hpp"
 #include "cli/commands.hpp"
 #include "cli/described_flags.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
-#include "cli/text_output.hpp"
 #include "cli/versions.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/experiments/failure_map_grains.hpp"
 #include "compare/experiments/run_plan.hpp"
-#include "compare/failure_map/learned_map.hpp"
+#include "compare/failure_map/incline_map.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/atomic_file.hpp"
 
@@ -39,7 +39,6 @@ struct FailureMapOptions {
   BatchFlags batch;
 };
 
-/// "LOW..HIGH" of a flag, in SI.
 compare::Factor range_of(const std::string& flag, const std::string& text, const std::string& name,
                          const Measure& measure) {
   const auto [lower, upper] = read_range(flag, text, measure);
@@ -158,7 +157,6 @@ int plan(const FailureMapOptions& asked, Case question, const compare::InclineMa
   return done;
 }
 
-/// The map's answer in all outputs that were asked for; gives the exit status.
 int tell(const compare::FailureMapResult& result, const compare::MapGrains& grains, const FailureMapOptions& asked,
          const Case& question, const Session& session) {
   const compare::FailureMapAbout about{"Failure map: " + name_of(result.map.incline),

@@ -1,8 +1,6 @@
 // soilbin limits: what a wheel can do at best in a steady state: the largest pull, the steepest slope, the slip for
 // each.
-#include <fmt/core.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "cli/commands.hpp"

@@ -8,8 +8,8 @@
 #include "bekker_wong/effects/provenance.hpp"
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
-#include "cli/text_output.hpp"
-#include "compare/measured/channels.hpp"
+#include "cli/outputs.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/report/json_fields.hpp"
 #include "scenario/contents.hpp"
 #include "scenario/errors.hpp"
@@ -176,16 +176,13 @@ int print_shelves(bool json, const Workplace& place) {
 }
 
 Json effect_json(const bekker_wong::EffectForm& form) {
-  Json parameters = Json::array();
-  for (const bekker_wong::EffectParameter& p : form.parameters)
-    parameters.push_back({{"name", p.name},
-                          {"unit", p.unit},
-                          {"default", p.fallback},
-                          {"lower", p.lower},
-                          {"upper", p.upper},
-                          {"meaning", p.meaning}});
-  Json presumes = Json::array();
-  for (const bekker_wong::Presumption& p : form.presumes) presumes.push_back({{"key", p.key}, {"value", p.rule}});
+  const Json parameters = compare::list_of(form.parameters, [](const bekker_wong::EffectParameter& p) {
+    return Json{{"name", p.name},   {"unit", p.unit},   {"default", p.fallback},
+                {"lower", p.lower}, {"upper", p.upper}, {"meaning", p.meaning}};
+  });
+  const Json presumes = compare::list_of(form.presumes, [](const bekker_wong::Presumption& p) {
+    return Json{{"key", p.key}, {"value", p.rule}};
+  });
   return {{"id", form.id},
           {"form", form.form},
           {"equation", form.equation},

@@ -83,7 +83,6 @@ std::string cell(const std::string& text) {
   return out;
 }
 
-/// The options of a command, a table a group.
 std::string option_tables(const CLI::App& command) {
   std::vector<std::string> groups;
   for (const CLI::Option* option : shown_options(command))

@@ -1,5 +1,4 @@
 // soilbin mesh: what is in a drawing of a wheel, and what is mended before grains meet it.
-#include <fmt/core.h>
 
 #include <filesystem>
 #include <memory>

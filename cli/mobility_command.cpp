@@ -5,12 +5,11 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/described_flags.hpp"
 #include "cli/outputs.hpp"
-#include "compare/doubts/quick_model_doubts.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/telling/reports.hpp"
 #include "cone_index/vehicle.hpp"
 #include "scenario/case.hpp"

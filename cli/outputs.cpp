@@ -12,8 +12,8 @@
 #include "cli/flag_values.hpp"
 #include "cli/picture.hpp"
 #include "cli/progress.hpp"
-#include "cli/text_output.hpp"
 #include "cli/versions.hpp"
+#include "compare/report/json_fields.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/errors.hpp"
@@ -136,6 +136,15 @@ Outputs publish(compare::Report report, const OutputFlags& asked, const compare:
   fmt::print(stderr, "soilbin: {}\n", report.no_answer);
   outputs.has_no_answer();
   return outputs;
+}
+
+void print_warnings(const compare::Doubts& doubts) {
+  for (const std::string& line : in_words(doubts)) fmt::print(stderr, "warning: {}\n", line);
+}
+
+void print_json(nlohmann::ordered_json document, const compare::Doubts& doubts) {
+  compare::add_warnings(document, doubts);
+  fmt::print("{}", compare::json_text(document));
 }
 
 }  // namespace soilbin::cli

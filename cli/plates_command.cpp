@@ -1,5 +1,4 @@
 // soilbin plates: measured plate tests, and the n, k_c and k_phi that they give.
-#include <fmt/core.h>
 
 #include <filesystem>
 #include <memory>
@@ -10,7 +9,7 @@
 #include "cli/outputs.hpp"
 #include "compare/bevameter/measured_plates.hpp"
 #include "compare/bevameter/plate_groups.hpp"
-#include "compare/doubts/plate_doubts.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
 

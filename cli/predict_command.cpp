@@ -8,7 +8,6 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/doubts/quick_model_doubts.hpp"
 #include "compare/measured/campaign.hpp"
 #include "compare/sweep/prediction.hpp"
 #include "compare/telling/loop_report.hpp"
@@ -63,9 +62,7 @@ compare::Doubts doubts_of(const Predictor& predictor, const compare::Campaign& c
                           const compare::Prediction& prediction) {
   if (predictor.kind == ModelKind::bekker_wong) return compare::doubts(campaign, predictor.scenario, prediction);
   if (predictor.kind == ModelKind::rft) return compare::resistive_force_doubts(predictor.scenario.soil);
-  std::vector<OperatingCondition> conditions;
-  for (const compare::Run& run : campaign.runs) conditions.push_back(run.at);
-  return compare::cone_index_doubts(predictor.scenario, conditions);
+  return compare::cone_index_doubts(predictor.scenario, conditions_of(prediction));
 }
 
 int predict(const PredictOptions& options, const Session& session) {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <ctime>
@@ -93,6 +94,13 @@ compare::Progress shown_progress() {
     const double left = passed * static_cast<double>(total - done) / static_cast<double>(done);
     show_progress_line(fmt::format("{:3.0f} %  {} of {}, {:.0f} s left",
                                    100.0 * static_cast<double>(done) / static_cast<double>(total), done, total, left));
+  };
+}
+
+std::function<void(double time, double duration)> shown_progress_in_time() {
+  constexpr double parts = 1000.0;
+  return [shown = shown_progress()](double time, double duration) {
+    shown(static_cast<std::size_t>(std::max(1.0, parts * time / duration)), static_cast<std::size_t>(parts));
   };
 }
 

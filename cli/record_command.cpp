@@ -5,10 +5,9 @@
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/soil_bin.hpp"
-#include "cli/text_output.hpp"
-#include "compare/recorded/record_words.hpp"
-#include "compare/recorded/run_specs.hpp"
+#include "compare/recorded/run_store.hpp"
 #include "compare/recorded/step_pair.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/file_bytes.hpp"

@@ -10,7 +10,6 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/doubts/named_doubts.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/studies_report.hpp"
 #include "scenario/atomic_file.hpp"

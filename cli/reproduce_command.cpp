@@ -1,5 +1,4 @@
 // soilbin reproduce: whether the models show what a publication found.
-#include <fmt/core.h>
 
 #include <filesystem>
 #include <memory>
@@ -11,7 +10,6 @@
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "compare/reproduction/reproduction.hpp"
-#include "compare/reproduction/study_answers.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -27,7 +25,6 @@ struct ReproduceOptions {
   std::vector<std::string> recorded;
 };
 
-/// A name of the library's findings, or a path.
 fs::path findings_file(const Workplace& place, const std::string& name) {
   std::vector<std::string> names;
   for (const fs::path& folder : place.folders) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "cli/flag_values.hpp"
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"

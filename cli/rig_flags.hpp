@@ -10,7 +10,6 @@
 
 namespace soilbin::cli {
 
-/// Adds --limit.
 void add_limits_of_the_rig(CLI::App& app, std::vector<std::string>& texts, const std::string& meaning);
 
 /// "load=50N..0.2kN", values with units. Throws InputError that names the flag.

@@ -1,16 +1,15 @@
 // soilbin run: a study, by each of its models at each of its conditions.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
-#include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/experiments/convergence.hpp"
 #include "compare/experiments/run_plan.hpp"

@@ -3,8 +3,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
-#include "cli/text_output.hpp"
-#include "compare/measured/campaign_schema.hpp"
+#include "cli/outputs.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/recorded/record.hpp"
 #include "cone_index/vehicle.hpp"
 #include "scenario/errors.hpp"

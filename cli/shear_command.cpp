@@ -6,8 +6,9 @@
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
+#include "compare/bevameter/measured_shear.hpp"
 #include "compare/bevameter/plate_tests.hpp"
-#include "compare/doubts/plate_doubts.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/telling/reports.hpp"
 
 namespace soilbin::cli {

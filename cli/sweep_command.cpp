@@ -11,9 +11,9 @@
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
-#include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/experiments/jobs.hpp"
 #include "compare/report/number_text.hpp"

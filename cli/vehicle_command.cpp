@@ -1,7 +1,6 @@
 // soilbin vehicle: a vehicle's wheels on soil: does it go, how steep, and which wheel gives out.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -12,9 +11,9 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
-#include "compare/doubts/declared_doubts.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/telling/reports.hpp"
-#include "compare/vehicle/driven_answers.hpp"
+#include "compare/vehicle/vehicle_answers.hpp"
 #include "compare/vehicle/vehicle_doubts.hpp"
 
 namespace soilbin::cli {
@@ -43,12 +42,8 @@ int drive_in_time(const VehicleOptions& options, const compare::VehicleCase& que
                   const Session& session) {
   refuse_what_the_drive_says(options, question.drive);
   constexpr int intervals = 400;
-  const auto shown = shown_progress();
   const compare::DrivenAnswers answers =
-      compare::driven_answers(question, wheels, model, intervals, [&](double time, double duration) {
-        constexpr double parts = 1000.0;
-        shown(static_cast<std::size_t>(std::max(1.0, parts * time / duration)), static_cast<std::size_t>(parts));
-      });
+      compare::driven_answers(question, wheels, model, intervals, shown_progress_in_time());
   append(doubts, compare::doubts(question.soil));
   return publish(compare::report_on(answers), options.outputs, once_each(doubts), session).status(done);
 }

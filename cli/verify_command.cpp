@@ -10,9 +10,9 @@
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
-#include "cli/text_output.hpp"
 #include "compare/report/json_fields.hpp"
 #include "dem/verification/fast_engine.hpp"
 #include "dem/verification/incline.hpp"

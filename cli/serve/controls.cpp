@@ -5,7 +5,8 @@
 
 #include "bekker_wong/effect.hpp"
 #include "cli/described_flags.hpp"
-#include "cli/text_output.hpp"
+#include "cli/outputs.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/quantity.hpp"
 #include "scenario/soil_parameters.hpp"
@@ -133,22 +134,20 @@ void add_soil_values(Json& numbers, const SemiEmpiricalSoil& soil) {
 /// A slider for each parameter of a form. Bounds that lie far beyond what is usual are for the box beside it.
 Json parameters_json(const bekker_wong::EffectForm& form) {
   constexpr double steps = 200, usual = 4, far = 12;
-  Json all = Json::array();
-  for (const bekker_wong::EffectParameter& parameter : form.parameters) {
+  return compare::list_of(form.parameters, [](const bekker_wong::EffectParameter& parameter) {
     const double per_si = compare::per_unit(parameter.unit), start = parameter.fallback * per_si;
     double lower = parameter.lower * per_si, upper = parameter.upper * per_si;
     if (start != 0.0 && upper > far * std::abs(start)) upper = round_number(usual * std::abs(start));
     if (lower < -upper) lower = -upper;
-    all.push_back({{"key", parameter.name},
-                   {"title", parameter.name},
-                   {"meaning", parameter.meaning},
-                   {"unit", parameter.unit == "-" ? "" : parameter.unit},
-                   {"value", read_in(parameter.fallback, parameter.unit)},
-                   {"lower", lower},
-                   {"upper", upper},
-                   {"step", round_number((upper - lower) / steps)}});
-  }
-  return all;
+    return Json{{"key", parameter.name},
+                {"title", parameter.name},
+                {"meaning", parameter.meaning},
+                {"unit", parameter.unit == "-" ? "" : parameter.unit},
+                {"value", read_in(parameter.fallback, parameter.unit)},
+                {"lower", lower},
+                {"upper", upper},
+                {"step", round_number((upper - lower) / steps)}};
+  });
 }
 
 /// A value of the condition that most questions leave out, and that only some effects hear of.
@@ -178,6 +177,12 @@ Json hearing_ids(const std::string& key) {
   for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue())
     if (depends_on(form, key) && (ids.empty() || ids.back() != form.id)) ids.push_back(form.id);
   return ids;
+}
+
+template <class Described>
+bool is_flag_of(const std::string& flag) {
+  const std::vector<std::string> keys = keys_of<Described>();
+  return std::ranges::any_of(keys, [&](const std::string& key) { return key_of("", key.c_str()) == flag; });
 }
 
 void add_condition_sliders(Json& numbers, const OperatingCondition& at) {
@@ -236,16 +241,9 @@ Json effects_json(const Case& question) {
   return all;
 }
 
-bool is_tire_flag(const std::string& key) {
-  const std::vector<std::string> keys = keys_of<Tire>();
-  return key.starts_with("lug-") ||
-         std::ranges::any_of(keys, [&](const std::string& k) { return key_of("", k.c_str()) == key; });
-}
+bool is_tire_flag(const std::string& key) { return key.starts_with("lug-") || is_flag_of<Tire>(key); }
 
-bool is_soil_flag(const std::string& key) {
-  const std::vector<std::string> keys = keys_of<SemiEmpiricalSoil>();
-  return std::ranges::any_of(keys, [&](const std::string& k) { return key_of("", k.c_str()) == key; });
-}
+bool is_soil_flag(const std::string& key) { return is_flag_of<SemiEmpiricalSoil>(key); }
 
 bool is_told_in_kilonewtons(double load) { return load >= 1000.0; }
 
@@ -263,19 +261,15 @@ Json numbers_json(const Case& question, const std::string& force) {
 }
 
 Json effect_values_json(const Case& question) {
-  Json all = Json::array();
-  for (const EffectChoice& choice : question.study.models.front().effects) {
+  return compare::list_of(question.study.models.front().effects, [](const EffectChoice& choice) {
     const bekker_wong::EffectForm& form = bekker_wong::find_form(choice);
-    Json values = Json::array();
-    for (const bekker_wong::EffectParameter& parameter : form.parameters) {
+    const auto value_of = [&](const bekker_wong::EffectParameter& parameter) {
       const auto given = choice.parameters.find(parameter.name);
-      values.push_back(
-          {{"key", parameter.name},
-           {"value", read_in(given == choice.parameters.end() ? parameter.fallback : given->second, parameter.unit)}});
-    }
-    all.push_back({{"id", form.id}, {"form", form.form}, {"parameters", values}});
-  }
-  return all;
+      const double value = given == choice.parameters.end() ? parameter.fallback : given->second;
+      return Json{{"key", parameter.name}, {"value", read_in(value, parameter.unit)}};
+    };
+    return Json{{"id", form.id}, {"form", form.form}, {"parameters", compare::list_of(form.parameters, value_of)}};
+  });
 }
 
 }  // namespace soilbin::cli

@@ -8,10 +8,10 @@
 
 #include "cli/command_words.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/question.hpp"
 #include "cli/serve/controls.hpp"
 #include "cli/serve/served_answer.hpp"
-#include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/report/page.hpp"
 #include "compare/sweep/varying.hpp"
@@ -63,16 +63,6 @@ std::vector<Flag> flags_of(const std::string& query) {
   return flags;
 }
 
-/// The ends of the curves' slips; takes the flag out.
-std::pair<double, double> take_slips(std::vector<Flag>& flags) {
-  std::string text = "0%..100%";
-  std::erase_if(flags, [&](const Flag& flag) {
-    if (flag.first == "slips") text = flag.second;
-    return flag.first == "slips";
-  });
-  return read_range("slips", text, Measure{"-", {.lower = -1.0, .upper = 1.0}});
-}
-
 /// "what\n  hint: how" in two.
 std::pair<std::string, std::string> error_and_hint(const std::string& what) {
   std::vector<std::string> parts = split(what, "\n  hint: ");
@@ -87,6 +77,11 @@ std::optional<std::string> take(std::vector<Flag>& flags, const std::string& key
     return flag.first == key;
   });
   return text;
+}
+
+/// The ends of the curves' slips; takes the flag out.
+std::pair<double, double> take_slips(std::vector<Flag>& flags) {
+  return read_range("slips", take(flags, "slips").value_or("0%..100%"), Measure{"-", {.lower = -1.0, .upper = 1.0}});
 }
 
 /// The question of a query and, where it says beside-soil=NAME or beside-tire=NAME, the same with that soil or tire.
@@ -163,8 +158,7 @@ Reply estimate_reply(const Setup& setup, const std::string& query) {
   document["curves"] = curves_json(sides);
   document["budget"] = budget_json(sides);
   document["stresses"] = stresses_json(sides);
-  document["wheels"] = Json::array();
-  for (const ServedAnswer& one : sides) document["wheels"].push_back(wheel_json(one));
+  document["wheels"] = compare::list_of(sides, wheel_json);
   if (sides.size() > 1) {
     document["beside"] = {{"label", sides[1].label},
                           {"command", command_line(sides[1].asked.words)},

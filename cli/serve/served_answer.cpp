@@ -8,7 +8,7 @@
 #include "bekker_wong/model.hpp"
 #include "cli/progress.hpp"
 #include "cli/serve/controls.hpp"
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/plot.hpp"
@@ -156,18 +156,17 @@ Json wheel_json(const ServedAnswer& one) {
 }
 
 Json readings_json(const ServedAnswer& one) {
-  Json all = Json::array();
   const auto& result = one.point.front().answers.front().result;
-  if (!result) return all;
+  if (!result) return Json::array();
   const std::size_t channels = compare::channel_views.size();
   std::vector<compare::PrintedValue> readings = compare::printed_values(
       *result, tells_kilonewtons(one) ? compare::ForcesIn::kilonewtons : compare::ForcesIn::newtons);
   if (const std::optional<double> steepest = compare::steepest_slope(one.asked.question))
     readings.insert(readings.begin() + static_cast<std::ptrdiff_t>(channels) + 1,
                     {"Steepest slope", compare::number(*steepest / degree), "deg"});
-  for (const compare::PrintedValue& reading : readings)
-    all.push_back({{"name", reading.name}, {"value", reading.value}, {"unit", reading.unit}});
-  return all;
+  return compare::list_of(readings, [](const compare::PrintedValue& reading) {
+    return Json{{"name", reading.name}, {"value", reading.value}, {"unit", reading.unit}};
+  });
 }
 
 }  // namespace soilbin::cli

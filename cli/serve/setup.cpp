@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "cli/command_words.hpp"
+#include "cli/outputs.hpp"
 #include "cli/question.hpp"
 #include "cli/serve/controls.hpp"
-#include "cli/text_output.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/quantity.hpp"

@@ -6,9 +6,61 @@
 #include <map>
 #include <stdexcept>
 
-#include "compare/fit/pooled_runs.hpp"
+#include "compare/attribution/unnamed.hpp"
+#include "compare/fit/condition_functions.hpp"
+#include "compare/fit/fitted_model.hpp"
 
 namespace soilbin::compare {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Starts a term at these values of its form's parameters, with a share of the amplitude: with next to none the fit
+/// ends no higher than the one that it begins from, whose first step would else have to lead back there.
+void put(VectorXd& start, const WheelPredictor& predictor, int term, const std::vector<double>& values, double share) {
+  const Term& t = predictor.terms()[term];
+  const Index first = predictor.amplitude_index(term);
+  const double off_its_bound = share > 0.0 ? 1e-3 : 1e-6;
+  for (std::size_t k = 0; k < t.free.size(); ++k) {
+    const int i = t.free[k];
+    const bekker_wong::EffectParameter& p = t.form->parameters[i];
+    const double least = k == 0 ? p.lower + off_its_bound * (p.upper - p.lower) : p.lower;
+    start[first + k] = std::clamp(k == 0 ? share * values[i] : values[i], least, p.upper);
+  }
+}
+
+/// Soil values and earlier terms as known, then the estimated terms, their amplitudes halved until every run is
+/// carried; and the balances there.
+std::pair<VectorXd, BalanceMemory> start_of(const WheelPredictor& predictor, const CandidateStart& known, double share,
+                                            const VectorXd& where) {
+  VectorXd start = predictor.start(), prediction;
+  start.head(where.size()) = where;
+  for (const auto& [term, values] : known.estimated) put(start, predictor, term, values, share);
+  BalanceMemory memory = known.from->balance;
+  for (int halving = 0; halving < 6 && !predictor.predict(start, prediction, memory); ++halving)
+    for (const auto& [term, values] : known.estimated) start[predictor.amplitude_index(term)] *= 0.5;
+  return {std::move(start), std::move(memory)};
+}
+
+}  // namespace
+
+std::optional<FittedModel> fit_terms(const FittedModel& base, const std::vector<Term>& terms,
+                                     const CandidateStart& known) {
+  const WheelPredictor predictor = base.predictor().with(terms);
+  std::optional<FittedModel> best;
+  const auto try_from = [&](double share, const VectorXd& where) {
+    auto [start, near] = start_of(predictor, known, share, where);
+    auto found = fitted(base.shared_data(), predictor, start, std::move(near));
+    if (found && (!best || found->fit().chi2 < best->fit().chi2)) best = std::move(found);
+  };
+  const auto drops_by = [&](double drop) { return best && best->fit().chi2 < known.from->chi2 - drop; };
+  for (const double share : {1.0, 0.3, 0.0})
+    if (!drops_by(share > 0.0 ? 0.5 * known.expected_drop : 0.0)) try_from(share, known.from->restart);
+  if (!drops_by(0.0)) try_from(0.0, known.from->theta);  // where the soil carries every run
+  return best;
+}
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -115,7 +167,6 @@ class Search {
     found_.base_log_evidence = log_evidence(base, false);
   }
 
-  /// The strongest forms, one by one.
   void fit_singles() {
     fit_each(strongest_forms(signatures_, thresholds::max_refits), [&](const Signature* s) {
       return fit_terms(base_, {free_term(*s->term.form)}, {&base_.fit(), {{0, estimate_of(*s)}}, s->score * s->score});
@@ -429,6 +480,64 @@ double p_beside_others(const Attribution& found, const CandidateModel& candidate
     if (s.term.form->id == candidate.terms()[term].form->id) own.push_back(s);
   return family_wise_p(signatures, strongest(own), found.base.data().noise.typical_freedom(), options.simulations,
                        options.seed);
+}
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MatrixXd model_discrepancy_columns(const FittedModel& base) {
+  Observations own = base.data().observations;
+  for (OperatingCondition& at : own.rows) {
+    OperatingCondition bare;
+    bare.load = at.load, bare.slip = at.slip;
+    at = bare;
+  }
+  const MatrixXd functions = with_constant(smooth_basis(own, thresholds::discrepancy_functions));
+  return in_every_channel(base.data(), base.fit().prediction, functions);
+}
+
+namespace {
+
+/// The size at which the columns, together with whichever set of effects suits them, explain the data best.
+double best_size(const Attribution& found, const MatrixXd& columns) {
+  double best = thresholds::term_sizes.front(), most = -std::numeric_limits<double>::infinity();
+  const auto weigh = [&](double log_evidence, const FittedModel& model) {
+    const JoinedColumns joined(problem_of(model), columns);
+    for (const double size : thresholds::term_sizes)
+      if (const double sum = log_evidence + joined.gain(size); sum > most) most = sum, best = size;
+  };
+  weigh(found.candidates.base_log_evidence, found.base);
+  for (const WeightedSet& w : found.candidates.sets)
+    weigh(w.log_evidence, found.candidates.models[w.best_candidate].model);
+  return best;
+}
+
+Candidates with_lower_evidence(Candidates candidates, double by) {
+  candidates.base_log_evidence -= by;
+  for (CandidateModel& c : candidates.models) c.log_evidence -= by;
+  for (WeightedSet& w : candidates.sets) w.log_evidence -= by;
+  return candidates;
+}
+
+}  // namespace
+
+std::optional<DiscrepancyAttribution> attribute_with_model_discrepancy(const Attribution& first,
+                                                                       const AttributionOptions& options) {
+  if (first.candidates.none_near_noise) return std::nullopt;
+  MatrixXd columns = model_discrepancy_columns(first.base);
+  const double size = best_size(first, columns);
+  columns *= size;
+  Dataset data = first.base.data();
+  data.whitening = data.whitening.beside(columns);
+  const auto shared = std::make_shared<const Dataset>(std::move(data));
+  const auto base = fitted(shared, first.base.predictor().over(shared->observations), first.base.fit().restart);
+  if (!base) return std::nullopt;
+  Attribution found = attribute(*base, options);
+  if (found.candidates.none_near_noise) return std::nullopt;
+  const double narrowed = log_narrowing(columns.transpose() * columns, VectorXd::Ones(columns.cols()));
+  const double price = narrowed + std::log(static_cast<double>(thresholds::term_sizes.size()));
+  found.candidates = with_lower_evidence(std::move(found.candidates), price);
+  return DiscrepancyAttribution{size, std::move(found)};
 }
 
 }  // namespace soilbin::compare

@@ -2,17 +2,42 @@
 // made it, each fitted in full and weighed by its evidence.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "compare/attribution/base_fit.hpp"
-#include "compare/attribution/candidate_fit.hpp"
 #include "compare/attribution/signatures.hpp"
 #include "compare/attribution/unnamed.hpp"
+#include "compare/fit/evidence.hpp"
 
 namespace soilbin::compare {
+
+// A set of effects fitted in full beside the soil's values.
+
+/// A set of effects that competes, fitted in full, each in one form.
+struct CandidateModel {
+  std::set<std::string> ids;
+  FittedModel model;
+  double log_evidence = 0.0;
+  const Fit& fit() const { return model.fit(); }
+  const std::vector<Term>& terms() const { return model.terms(); }
+};
+
+struct CandidateStart {
+  const Fit* from;  ///< of the soil, and of the first terms; the others start at their defaults
+  std::map<int, std::vector<double>>
+      estimated;               ///< a term's parameters, amplitude first, where its signature puts them [SI]
+  double expected_drop = 0.0;  ///< what the signatures promise to take off its chi2
+};
+
+/// Fits the terms in full beside the base model; again from smaller amplitudes where that gained less than half of what
+/// was expected_drop, and from next to none where it gained nothing: an effect that joins others leaves no more than
+/// they did. Nothing where no start balances.
+std::optional<FittedModel> fit_terms(const FittedModel& base, const std::vector<Term>& terms,
+                                     const CandidateStart& known);
 
 /// Sets of effects with their share of the evidence, best first.
 struct WeightedSet {
@@ -57,5 +82,26 @@ Attribution attribute(const FittedModel& base, const AttributionOptions& options
 /// form of the catalogue stand out as much as this effect's strongest does once the others are fitted.
 double p_beside_others(const Attribution& found, const CandidateModel& candidate, int term,
                        const AttributionOptions& options);
+
+// Model discrepancy (Kennedy and O'Hagan 2001): a second attribution of the residual, in which the base model's own
+// form may be wrong. One with an exact base model has no way to say so but to name effects that make up for it.
+
+/// What the base model's own form may leave in the cells: smooth functions of its variables, load and slip, in every
+/// channel, whitened to about 1 sd a cell each (the model discrepancy of Kennedy and O'Hagan 2001, J.
+/// R. Stat. Soc. B 63:425).
+Eigen::MatrixXd model_discrepancy_columns(const FittedModel& base);
+
+/// An attribution of the same observations in which the base model may be off by such functions.
+struct DiscrepancyAttribution {
+  double size = 0.0;  ///< sd of each function's weight, in sd of the noise: the one that explains the data best
+  /// Its ln evidence stands beside that of the first attribution, the price of the size paid.
+  Attribution found;
+};
+
+/// Finds signatures, fits and weighs the effects of the catalogue once more, now that load and slip alone explain
+/// nothing. Nothing where either attribution is far from the noise (Candidates::none_near_noise), or no soil carries
+/// the wheel.
+std::optional<DiscrepancyAttribution> attribute_with_model_discrepancy(const Attribution& first,
+                                                                       const AttributionOptions& options);
 
 }  // namespace soilbin::compare

@@ -1,16 +1,68 @@
-// Stage 5 of the loop: which candidate stands on conditions left out, what it leaves, and which others the data can't
-// tell from it.
+// Stage 5 of the loop: which candidate stands on conditions left out, what it leaves, which others the data can't
+// tell from it, and the verdict.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "compare/attribution/candidates.hpp"
-#include "compare/attribution/detection.hpp"
 #include "compare/attribution/predictive_gain.hpp"
+#include "compare/fit/fitted_model.hpp"
 
 namespace soilbin::compare {
+
+// Is anything left over? Lack of fit against the noise, and residuals against every variable.
+
+/// Residual mean square over the noise's, as an F test (Draper and Smith, Applied Regression Analysis, ch. 2).
+struct LackOfFit {
+  double f = 0.0;
+  double freedom = 0.0;        ///< of the residual
+  double noise_freedom = 0.0;  ///< behind the noise estimate
+  double p_value = 1.0;
+};
+LackOfFit lack_of_fit(const FittedModel& model);
+
+/// Lack of fit against re-runs alone, channel by channel: the scatter of the setpoints' mean residuals over that within
+/// setpoints (pure error; Draper and Smith, ch. 2), the setpoint farthest off left out, for it may be an outlier. It
+/// needs no estimate of the noise but how it grows with the signal, so it also sees what no smooth function of the
+/// conditions follows and would pass for noise.
+struct RerunTest {
+  double p_value = 1.0;  ///< least of the channels', times their number; 1 where no channel has re-runs enough
+  double excess = 0.0;   ///< squares of setpoints' means beyond what the re-runs explain, in theirs, over the channels
+};
+RerunTest rerun_test(const FittedModel& model);
+
+/// Do runs made one after the other err alike? Serial correlation of the residuals in the order of the runs: of each
+/// channel, and of a gain that all forces of a run share. An amplifier that warms, a bed that dries, another operator.
+/// It needs no estimate of the noise, which such changes raise.
+struct SerialTest {
+  double p_value = 1.0;        ///< least of the series', times their number; 1 where the order isn't known
+  std::optional<int> channel;  ///< whose series reaches it (Channel); none: the gain that all forces share
+};
+/// By the correlations over 1, 2, .. L runs, L a twelfth of them, the nearer the heavier (Bartlett's weights), against
+/// rearrangements of the runs. Deterministic for a seed.
+SerialTest serial_test(const FittedModel& model, int permutations, std::uint64_t seed);
+
+/// Does a channel's residual depend on a variable? Share of its variance that a parabola in the variable explains,
+/// with its p-value from permutations that keep the re-runs of a setpoint together (SetpointPermutation): what they
+/// share, the model's error at that setpoint above all, is seen once, however often it was run.
+struct Dependence {
+  int channel = 0;
+  std::string variable;
+  double share = 0.0;
+  double p_value = 1.0;
+  /// Least share of false findings, in expectation, among this and all that are surer: of all channels and variables of
+  /// the table (Benjamini and Hochberg 1995, J. R. Stat. Soc. B 57:289).
+  double false_discovery_rate = 1.0;
+};
+/// residual: whitened, a cell each. Deterministic for a seed.
+std::vector<Dependence> dependences(const Observations& observations, const Eigen::VectorXd& residual, int permutations,
+                                    std::uint64_t seed);
 
 /// The rule by which an effect is accepted: conditions left out are predicted better by a standard error; or better at
 /// all, where the odds pass thresholds::odds_enough: with a dozen conditions a standard error is more than a real
@@ -61,5 +113,107 @@ bool is_settled(const Candidates& candidates);
 
 /// The competitors as an answer lists them, with weights that sum to 1.
 std::vector<WeightedSet> ambiguity_set(const Candidates& candidates);
+
+// The loop's verdict on a campaign (an effect is found, nothing is missing, the effect is unknown, not enough data)
+// and the reason for it, from the attribution of its residual. End of stage 5 of the loop.
+//
+//   const Judgement judged = judge(attribute(fit_base(campaign, observe(campaign), {}), {}), {});
+//   if (judged.verdict() == Verdict::unknown_effect) std::get<NoneAccepted>(judged.reason).sign;
+
+enum class Verdict { not_enough_data, nothing_missing, effect_found, unknown_effect };
+std::string_view word(Verdict verdict);
+
+/// Why a campaign is too small to fit anything.
+struct TooFewValues {
+  std::size_t values = 0, conditions = 0;  ///< that were measured
+  int soil_values = 0;                     ///< to be fitted
+};
+
+// Reasons, each of one verdict alone.
+
+/// The noise of a channel is known to so few degrees of freedom [-] that nothing can be judged by it.
+struct NoiseUnknown {
+  static constexpr Verdict verdict = Verdict::not_enough_data;
+  double freedom = 0.0;
+};
+/// No known effect would be visible, whatever its size.
+struct NothingVisible {
+  static constexpr Verdict verdict = Verdict::not_enough_data;
+};
+
+/// The strongest of all effects is no stronger than noise makes one.
+struct NoneStandsOut {
+  static constexpr Verdict verdict = Verdict::nothing_missing;
+};
+/// The best effect fits, but does not improve predictions of conditions left out.
+struct NoGain {
+  static constexpr Verdict verdict = Verdict::nothing_missing;
+  PredictiveGain gain;
+};
+/// The best effect fits, but the procedure redone without conditions predicts those worse with effects.
+struct Refuted {
+  static constexpr Verdict verdict = Verdict::nothing_missing;
+  double without = 0.0, with = 0.0;  ///< root mean square errors [sd of the noise]
+};
+
+/// The choice stands out, and stands on conditions left out.
+struct StandsOut {
+  static constexpr Verdict verdict = Verdict::effect_found;
+};
+
+/// Share of the base model's excess over the noise that the chosen candidate leaves [-].
+struct UnexplainedShare {
+  double share = 0.0;
+};
+/// What shows that something is left.
+using SignOfMore = std::variant<UnexplainedShare, UnnamedEvidence, LackOfFit, RerunTest, SerialTest>;
+
+/// No known effect is accepted, but the residual of the base model is more than noise.
+struct NoneAccepted {
+  static constexpr Verdict verdict = Verdict::unknown_effect;
+  SignOfMore sign;
+};
+/// The best set of known effects leaves more than noise.
+struct MoreThanNamed {
+  static constexpr Verdict verdict = Verdict::unknown_effect;
+  SignOfMore sign;
+};
+/// The base model is wrong by a function of load and slip; the choice is the strongest beside that.
+struct BaseModelWrong {
+  static constexpr Verdict verdict = Verdict::unknown_effect;
+};
+
+using Reason = std::variant<NoiseUnknown, NothingVisible, NoneStandsOut, NoGain, Refuted, StandsOut, NoneAccepted,
+                            MoreThanNamed, BaseModelWrong>;
+
+/// An attribution and what is made of it.
+struct Judgement {
+  Attribution found;                      ///< its best candidate is the choice
+  ResidualTests before;                   ///< of what the base model leaves
+  std::optional<ChosenCandidate> choice;  ///< where any candidate may stand
+  Reason reason;
+
+  Verdict verdict() const {
+    return std::visit([](const auto& ground) { return ground.verdict; }, reason);
+  }
+  /// Whether the model uses the best candidate's effects: accepted, or in place of an unknown one.
+  bool uses_candidate() const {
+    return choice && choice->stands &&
+           (std::holds_alternative<StandsOut>(reason) || std::holds_alternative<MoreThanNamed>(reason) ||
+            std::holds_alternative<BaseModelWrong>(reason));
+  }
+};
+
+/// Nothing where the campaign has values enough to fit.
+std::optional<TooFewValues> too_small(const Campaign& campaign, const Observations& observations);
+
+/// Whether an effect is missing, the base model taken as exact.
+Judgement judge(Attribution found, const AttributionOptions& options);
+
+/// A judgement whose effects conditions left out refute: nothing is missing, or something unknown.
+Judgement without_its_effects(Judgement judgement, const Refuted& refuted);
+
+/// An unknown effect, attributed with a model discrepancy and with a candidate that stands out: it stays unknown.
+Judgement judge_with_model_discrepancy(Attribution found, const AttributionOptions& options);
 
 }  // namespace soilbin::compare

@@ -5,9 +5,9 @@
 #include <map>
 #include <tuple>
 
+#include "compare/attribution/candidates.hpp"
 #include "compare/attribution/choice.hpp"
 #include "compare/attribution/learned_effect.hpp"
-#include "compare/attribution/model_discrepancy.hpp"
 #include "compare/attribution/predictive_gain.hpp"
 #include "compare/fit/condition_functions.hpp"
 #include "scenario/errors.hpp"

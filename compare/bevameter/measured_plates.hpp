@@ -1,6 +1,6 @@
 // The n, k_c and k_phi of Bekker's form p = (k_c/b + k_phi) z^n that measured plate tests give, with errors. b is a
 // round plate's radius, or the width of a strip. What is not on a test's loading curve (loading_curve.hpp), and a test
-// that the others disown (test_agreement.hpp), is set aside and told.
+// that the others disown (tests_apart), is set aside and told.
 //
 //   const std::vector<MeasuredPlate> plates = read_plates(read_source_text("plates.csv", largest_plate_csv));
 //   const MeasuredPlatesFit fit = fit_measured_plates(plates);   // fit.k_phi.value +- fit.k_phi.std_error [N/m^(n+2)]
@@ -16,10 +16,37 @@
 
 #include "compare/bevameter/loading_curve.hpp"
 #include "compare/bevameter/plate_tests.hpp"
-#include "compare/bevameter/test_agreement.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
+
+// Whether plate tests on one soil agree with each other: which of them bears so much more or less than the others do
+// that it was made on another soil, or is written in another unit.
+//
+//   const std::vector<TestLevel> levels = {{0.05, std::log(9e5)}, {0.05, std::log(9.2e5)}, {0.05, std::log(9e6)}};
+//   for (const TestApart& one : tests_apart(levels, 1.0)) one.test, one.factor;  // the third: 10
+//
+// Each test's ln k (at the n of all) is held against those of the others: their mean, and a slope over ln b that
+// Bekker's form makes -1 to 0. What remains scatters by a standard deviation that is known from the tests and, as much
+// as four more tests would tell, from what re-tests scatter (a moderated t: Smyth 2004, Stat. Appl. Genet. Mol. Biol.
+// 3:3).
+
+struct TestLevel {
+  double radius = 0.0;      ///< b [m]
+  double ln_modulus = 0.0;  ///< ln k at the n of all tests [ln N/m^(n+2)]
+};
+
+/// A test that bears other pressures than the others let expect.
+struct TestApart {
+  std::size_t test = 0;    ///< its place among those given
+  double factor = 1.0;     ///< its pressures over those that the others let expect at the same sinkage [-]
+  bool set_aside = false;  ///< noise does not put it there: chance below thresholds::outlier_level over their number
+  std::string unit{};  ///< what its numbers would be in, if a unit explains it: "its sinkage in cm for mm"; else empty
+};
+
+/// Those that are apart, the farthest first; n: their common exponent. Set aside are no more than a quarter of the
+/// tests (one of three), and never the only two.
+std::vector<TestApart> tests_apart(std::span<const TestLevel> tests, double n);
 
 /// Readings that are used: those of a pressure from `first` to `last` [Pa].
 struct PressureWindow {
@@ -85,9 +112,7 @@ struct MeasuredPlatesFit {
 /// fewer than six readings on its loading curve in the window.
 MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, const PressureWindow& window = {});
 
-/// The readings at these places of a curve.
 bekker_wong::PlateCurve readings_of(const bekker_wong::PlateCurve& curve, const std::vector<std::size_t>& places);
-/// The readings of a curve in a window.
 bekker_wong::PlateCurve within(const bekker_wong::PlateCurve& curve, const PressureWindow& window);
 /// The pressure [Pa] that the fit gives a plate of this b [m] at this sinkage [m].
 double bekkers_form(const MeasuredPlatesFit& fit, double radius, double sinkage);

@@ -8,7 +8,7 @@
 #include <map>
 #include <numeric>
 
-#include "compare/bevameter/test_rows.hpp"
+#include "compare/bevameter/plate_tests.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "compare/calibrate/experiment_store.hpp"
+#include "compare/design/factor.hpp"
 #include "compare/design/gaussian_process.hpp"
-#include "compare/design/space_filling.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

@@ -15,7 +15,7 @@
 #include "compare/calibrate/decision.hpp"
 #include "compare/calibrate/experiment_store.hpp"
 #include "compare/design/gaussian_process.hpp"
-#include "compare/design/level_effects.hpp"
+#include "compare/design/orthogonal_array.hpp"
 #include "compare/recorded/watch.hpp"
 
 namespace soilbin::compare {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "compare/measured/campaign.hpp"
-#include "compare/measured/channels.hpp"
 #include "compare/sweep/answers.hpp"
 
 namespace soilbin::compare {

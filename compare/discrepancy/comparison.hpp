@@ -2,8 +2,11 @@
 //
 //   const std::vector<Side> sides = {side_of(analytic), side_of("dem", runs, question.study.conditions)};
 //   const Comparison comparison = compare_sides(question, {analytic.choice}, sides);
-//   for (const Clause& clause : summary(comparison)) fmt::print("{}\n", clause.text);  // telling/comparison_words.hpp
+//   for (const Clause& clause : summary(comparison)) fmt::print("{}\n", clause.text);  // telling/comparison_report.hpp
 #pragma once
+
+#include <string>
+#include <vector>
 
 #include "compare/discrepancy/difference.hpp"
 #include "compare/discrepancy/side.hpp"
@@ -24,7 +27,7 @@ struct Tally {
 };
 
 // All differences between a model and a reference tested together: a chi-square test that allows for the uncertainty of
-// the soil's values, which moves all conditions at once (joint_chi_square.cpp).
+// the soil's values, which moves all conditions at once (JointTest).
 
 /// chi2 = d' (D + J S J')^-1 d over all channels and conditions: D, the reference's variances, with the correlation of
 /// a measured run's channels; S, the covariance of the soil's values, independent but where the model comes from a fit;
@@ -125,5 +128,45 @@ bool grains_are_coarse(const Comparison& comparison);
 /// What is doubtful in models side by side (compare/doubts/doubts.hpp): the analytic ones by `choices`, then grains
 /// where there are any.
 Doubts doubts(const Case& question, const std::vector<ModelChoice>& choices, const std::vector<Side>& sides);
+
+// Why sides differ: parts of the pull side by side, where the contact begins and ends, what slip adds to the sinkage.
+
+/// One part of the drawbar pull [N] as each side gives it; NaN where a side doesn't name it.
+struct BudgetRow {
+  std::string name;  ///< "shear_thrust"
+  std::vector<double> force;
+};
+
+/// Parts of the pull at one condition, in the order in which sides name them; a side without a budget is NaN
+/// throughout. `sides`: those that have one, of Comparison::sides.
+struct BudgetTable {
+  std::size_t condition = 0;
+  std::vector<std::size_t> sides;
+  std::vector<BudgetRow> rows;
+};
+BudgetTable budget_at(const Comparison& comparison, std::size_t condition);
+
+/// What a part is, for people: "thrust of the sheared soil".
+std::string part_in_words(const std::string& name);
+
+/// The part of the budget in which a side and its reference differ most, at the condition. No value where either has no
+/// budget.
+struct BudgetGap {
+  std::string name;
+  double side = 0.0, reference = 0.0;  ///< [N]
+};
+std::optional<BudgetGap> widest_part(const Comparison& comparison, std::size_t side, std::size_t reference,
+                                     std::size_t condition);
+
+/// Sinkage as what the load alone presses in, at slip 0 on the same curve, and what slip adds [m].
+struct SinkageSplit {
+  std::size_t side = 0, condition = 0;
+  double at_rest = 0.0, by_slip = 0.0;
+};
+/// For each side and condition whose curve holds a condition of slip 0 (to 1e-6) with a result.
+std::vector<SinkageSplit> sinkage_splits(const Comparison& comparison);
+
+/// The condition that is shown first: of the worst difference in pull, else the middle one.
+std::size_t condition_of_largest_difference(const Comparison& comparison);
 
 }  // namespace soilbin::compare

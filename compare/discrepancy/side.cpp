@@ -78,7 +78,6 @@ struct ScatterOfAll {
   bool is_known = false;  ///< whether any condition has several packings
 };
 
-/// Runs of one condition as a point.
 SidePoint combine(const std::vector<const RecordedRun*>& runs, const ScatterOfAll& all) {
   SidePoint point;
   std::vector<const RecordedRun*> solved;

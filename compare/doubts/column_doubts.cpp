@@ -1,5 +1,3 @@
-#include "compare/doubts/column_doubts.hpp"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -7,7 +5,8 @@
 #include <set>
 #include <utility>
 
-#include "compare/measured/channels.hpp"
+#include "compare/doubts/doubts.hpp"
+#include "compare/measured/campaign.hpp"
 #include "scenario/quantity.hpp"
 
 namespace soilbin::compare {

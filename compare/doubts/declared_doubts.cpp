@@ -1,5 +1,3 @@
-#include "compare/doubts/declared_doubts.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -7,6 +5,7 @@
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/contact_stages.hpp"
 #include "bekker_wong/model.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "scenario/beds.hpp"
 #include "scenario/unit.hpp"
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <span>
 
 #include "compare/doubts/doubt.hpp"
 #include "compare/report/number_text.hpp"

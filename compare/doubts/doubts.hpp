@@ -18,15 +18,18 @@
 //   grains               odd values, too soft or coarse, a law that hangs on the   grain_doubts.cpp
 //                        step
 //   measured rows        repeated, flipped, impossible                             row_doubts.cpp
-//                        samples of a log in place of runs                       log_signs.cpp
+//                        samples of a log in place of runs                       row_doubts.cpp
 //   measured columns     swapped, in another unit, of another sign                 column_doubts.cpp
 //   measured plates      a modulus below 0, no repeats, a form that misses         plate_doubts.cpp
 //
 // Three things have theirs with them: recorded runs, whether they hang on the time step (recorded/step_pair.hpp); a
 // side of a comparison, how many runs are behind a point (discrepancy/side.cpp, measured_side.cpp); a failure map,
-// experiments of an earlier engine (failure_map/learned_map.cpp).
+// experiments of an earlier engine (failure_map/incline_map.cpp).
 #pragma once
 
+#include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,8 +39,19 @@
 #include "compare/sweep/prediction.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "scenario/case.hpp"
+#include "scenario/soil.hpp"
+#include "scenario/tire.hpp"
+
+namespace soilbin::cone_index {
+struct Mobility;
+}
 
 namespace soilbin::compare {
+
+struct MeasuredPlatesFit;
+struct MeasuredShear;
+struct MeasuredShearFit;
+struct PlateGroups;
 
 /// Of a question and the answers to it, by any model. What no answer was found to is not among them: answers say that
 /// themselves. `study` may be empty, and its models need not be all of the question's. `of_models`: what else is
@@ -72,5 +86,103 @@ Remark remarks_about(const Scenario& scenario);
 
 /// A remark for each run of a prediction, on the answer and on the measured row.
 std::vector<std::string> remarks_on(const Campaign& campaign, const Scenario& asked, const Prediction& prediction);
+
+/// Tests that disagree, a sensor that sticks, spikes without number, one size of plate, a modulus below 0, an unusual
+/// n, no test that was repeated, a curve that bends, a form that misses the pressures.
+Doubts doubts(const MeasuredPlatesFit& fit);
+
+/// Of tests fitted apart: those of their readings, one size of plate, a density that no bed had.
+Doubts doubts(const PlateGroups& groups);
+
+/// One normal stress, a cohesion below 0, humps, no test that was repeated.
+Doubts doubts(const MeasuredShearFit& fit, std::span<const MeasuredShear> tests);
+
+// Parts of the list.
+
+// Signs that the rows of a campaign are samples of a log and no runs. Samples of one run share its bed: counted as runs
+// they make errors too small by many times, and a fit takes what one bed differs by for an effect.
+//
+//   if (!signs_of_a_log(campaign).empty()) ...  // no verdict holds beside one
+
+/// One, or none, on rows that look like samples, by the first of these (numbers chosen):
+/// - an ignored column holds a clock with even steps, over 20 rows or more;
+/// - rows on end have one run's number, three or more on average;
+/// - ten rows or more on end are at one setpoint: in half of all rows, and in two setpoints or more unless they are
+///   smooth;
+/// - four rows or more on end are at one setpoint on average, 40 rows or more in all, and they are smooth;
+/// - a hundred rows or more whose conditions hardly change from one to the next, twenty on end at like conditions.
+/// Rows of one setpoint are smooth where their autocorrelation at lag 1, about each stretch's mean and over all
+/// stretches, is more than 0.5 and four of its standard errors for independent rows, 1/sqrt(pairs) (Bartlett 1946).
+/// And one on an ignored column that names several wheels.
+Doubts signs_of_a_log(const Campaign& campaign);
+
+/// Rows that are no runs, that no wheel makes, that were copied, that were unsteady; a sinkage whose sign seems
+/// flipped. Without a line: of the whole column.
+Doubts row_doubts(const Campaign& campaign);
+
+/// The model that gave the answers, asked at other conditions.
+using AskAgain = std::function<std::vector<Answer>(const std::vector<OperatingCondition>&)>;
+
+/// Columns that a model's answers, one a run, fit far better once what may have been done to them is undone: a sign
+/// flipped (pull, torque, lateral force, slip), numbers a power of ten too large or too small (channels), slips or
+/// loads in another unit, two columns swapped. Each column is named once at most, with what fits best; the rest is
+/// judged with that put right. Of more than 200 runs some are looked at, evenly.
+Doubts column_doubts(const Campaign& campaign, const std::vector<Answer>& answers, const AskAgain& ask);
+
+/// Inputs of a question that change no digit of any of its models' answers: what a case declares and its analytic
+/// models, or its grains, hear nothing of, and the effects that it switches on whose condition it gives nowhere. Each
+/// says first the key of a tire, a condition or a bin: "lugs", "lugs.count", "inflation_pressure", "pass", "bin"; but
+/// bin_depth_taken, which says the effect.
+Doubts unused_inputs(const Case& question);
+
+/// Of a soil by itself: values out of the usual, no strength, nothing carried, hardly known.
+Doubts doubts(const Soil& soil);
+
+/// Of a wheel by itself: its proportions.
+Doubts doubts(const Tire& tire);
+
+/// The same on a soil, which may carry nothing for this width.
+Doubts doubts(const Tire& tire, const Soil& soil);
+
+/// What resistive force theory takes for a soil that does not declare its values, and what it can't know of it.
+Doubts resistive_force_doubts(const Soil& soil);
+
+/// What the model cone_index takes for a tire that does not declare it, where its relation was not tested, and what it
+/// can't answer.
+Doubts cone_index_doubts(const Scenario& scenario, const std::vector<OperatingCondition>& conditions);
+
+/// A vehicle that does not drive all axles, a cone index taken for a rating, a verdict within its error, a pressure
+/// that can't be told.
+Doubts doubts(const cone_index::Mobility& mobility);
+
+// Warnings on several studies and campaigns together: each doubt once, with the names of all that it applies to.
+//
+//   NamedDoubts named;
+//   for (...) named.add(question.study.name, question, study);
+//   print_warnings(named.all());  // "paper-straight, paper-transverse: the tire's lugs change nothing: ..."
+//
+// Studies of the same wheel on the same grains differ only in the figures of the doubt about coarse grains: it is given
+// once, with the worst figures.
+
+class NamedDoubts {
+ public:
+  /// Those of a study and its answers.
+  void add(const std::string& name, const Case& question, const std::vector<ModelAnswers>& study);
+  /// Those that somebody else has found.
+  void add(const std::string& name, const Doubts& doubts);
+  /// In the order in which they came, each with its names (Doubt::of).
+  Doubts all() const;
+
+ private:
+  struct OnGrains {
+    Scenario scenario;
+    std::vector<ModelAnswers> study;  ///< of all that share the doubt
+  };
+  struct Entry {
+    Doubt doubt;
+    std::optional<OnGrains> grains;  ///< the doubt is made from these
+  };
+  std::vector<Entry> entries_;
+};
 
 }  // namespace soilbin::compare

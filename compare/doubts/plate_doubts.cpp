@@ -1,8 +1,10 @@
-#include "compare/doubts/plate_doubts.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "compare/bevameter/measured_plates.hpp"
+#include "compare/bevameter/measured_shear.hpp"
+#include "compare/bevameter/plate_groups.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/measured/outliers.hpp"
 #include "scenario/beds.hpp"
 #include "scenario/source_text.hpp"

@@ -1,11 +1,10 @@
-#include "compare/doubts/quick_model_doubts.hpp"
-
 #include <cmath>
 #include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
 
+#include "compare/doubts/doubts.hpp"
 #include "cone_index/model.hpp"
 #include "cone_index/vehicle.hpp"
 #include "resistive_force/model.hpp"

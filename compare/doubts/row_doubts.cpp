@@ -1,16 +1,206 @@
-#include "compare/doubts/row_doubts.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
 
-#include "compare/doubts/log_signs.hpp"
-#include "compare/measured/channels.hpp"
+#include "compare/doubts/doubts.hpp"
+#include "compare/measured/campaign.hpp"
+#include "compare/measured/condition_views.hpp"
+#include "compare/measured/stretches.hpp"
+#include "compare/measured/time_log.hpp"
 #include "compare/measured/within_run_scatter.hpp"
+#include "scenario/nearest_word.hpp"
 
 namespace soilbin::compare {
+namespace {
+
+/// Whether numbers or times of day go on by even steps, but for restarts.
+bool goes_on_evenly(const std::vector<std::string>& texts) {
+  constexpr std::size_t fewest = 20;
+  constexpr double alike = 0.2, most = 0.8;
+  std::vector<double> steps;
+  std::optional<double> before;
+  for (const std::string& text : texts) {
+    const std::optional<double> time = clock_time(text);
+    if (!time) return false;
+    if (before) steps.push_back(*time - *before);
+    before = time;
+  }
+  if (texts.size() < fewest) return false;
+  const double usual = upper_median(steps);
+  const auto even =
+      std::ranges::count_if(steps, [&](double step) { return std::abs(step - usual) <= alike * std::abs(usual); });
+  return usual > 0.0 && static_cast<double>(even) >= most * static_cast<double>(steps.size());
+}
+
+/// First rows of stretches whose label, conditions and pass are alike.
+std::vector<std::size_t> starts_at_one_setpoint(const std::vector<Run>& runs) {
+  const auto labelled = [](const Run& run) { return run.setpoint.has_value(); };
+  if (std::ranges::all_of(runs, labelled)) {
+    std::vector<std::size_t> starts;
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      if (i == 0 || runs[i].setpoint != runs[i - 1].setpoint || runs[i].at.pass != runs[i - 1].at.pass)
+        starts.push_back(i);
+    return starts;
+  }
+  std::vector<HeldSeries> held;
+  for (const ConditionView& view : condition_views) {
+    if (view.name == "run" || view.name == "position") continue;
+    HeldSeries series;
+    std::vector<double> sizes;
+    for (const Run& run : runs) {
+      const double x = view.get(run.at);
+      series.values.push_back(std::isnan(x) ? 0.0 : x);
+      sizes.push_back(std::abs(series.values.back()));
+    }
+    series.tolerance = view.whole ? 0.1 : setpoint_tolerance(view.name, view.unit, upper_median(std::move(sizes)));
+    constexpr double noisy = 3.0;  // tolerances; more is another setpoint
+    if (view.name != "slip" && !view.whole)
+      series.tolerance = std::clamp(noise_in_steps(series.values), series.tolerance, noisy * series.tolerance);
+    held.push_back(std::move(series));
+  }
+  return stretch_starts(held, 0, runs.size());
+}
+
+std::vector<Run> runs_between(const std::vector<Run>& runs, const std::vector<std::size_t>& starts, std::size_t k) {
+  const std::size_t end = k + 1 < starts.size() ? starts[k + 1] : runs.size();
+  return {runs.begin() + static_cast<std::ptrdiff_t>(starts[k]), runs.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
+/// Whether slip goes one way in four of five steps: rows sorted by slip, or a sweep; what follows slip is smooth there.
+bool is_ramp(const std::vector<Run>& runs) {
+  constexpr double most = 0.8;
+  std::size_t up = 0, down = 0;
+  for (std::size_t i = 1; i < runs.size(); ++i)
+    up += runs[i].at.slip > runs[i - 1].at.slip, down += runs[i].at.slip < runs[i - 1].at.slip;
+  return runs.size() > 1 && static_cast<double>(std::max(up, down)) >= most * static_cast<double>(runs.size() - 1);
+}
+
+/// Autocorrelation at lag 1 of rows of one setpoint.
+struct RowCorrelation {
+  double value = 0.0;
+  std::string_view channel{};
+};
+
+/// The largest of all channels that is surely above 0; 0 for none.
+RowCorrelation smoothness(const std::vector<Run>& runs, const std::vector<std::size_t>& starts) {
+  constexpr double surely = 4.0, strong = 0.5;
+  RowCorrelation largest;
+  for (const ChannelView& channel : channel_views) {
+    double squares = 0.0, products = 0.0, pairs = 0.0;
+    for (std::size_t k = 0; k < starts.size(); ++k) {
+      const std::vector<Run> stretch = runs_between(runs, starts, k);
+      std::vector<double> values;
+      for (const Run& run : stretch)
+        if (const auto& value = run.*channel.measured) values.push_back(*value);
+      if (values.size() < 4 || is_ramp(stretch)) continue;
+      const auto [least, most] = std::ranges::minmax(values);
+      constexpr double rounding = 1e-12;  // of the values: a constant has no order
+      if (most - least <= rounding * std::max(std::abs(least), std::abs(most))) continue;
+      double mean = 0.0;
+      for (const double x : values) mean += x / static_cast<double>(values.size());
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        squares += (values[i] - mean) * (values[i] - mean);
+        if (i > 0) products += (values[i] - mean) * (values[i - 1] - mean), pairs += 1.0;
+      }
+    }
+    const double r = squares > 0.0 ? products / squares : 0.0;
+    if (r > std::max(strong, surely / std::sqrt(pairs)) && r > largest.value) largest = {r, channel.title};
+  }
+  return largest;
+}
+
+std::vector<double> slips_of(const std::vector<Run>& runs) {
+  std::vector<double> slips;
+  for (const Run& run : runs) slips.push_back(run.at.slip);
+  return slips;
+}
+
+/// Whether rows have one slip, but for noise: neither a ramp nor several slips in any order.
+bool holds_slip(const std::vector<Run>& runs) {
+  const double tolerance = setpoint_tolerance("slip", "-", 1.0);
+  double mean = 0.0, squares = 0.0;
+  const double count = static_cast<double>(runs.size());
+  for (const Run& run : runs) mean += run.at.slip / count;
+  for (const Run& run : runs) squares += (run.at.slip - mean) * (run.at.slip - mean) / count;
+  return squares <= tolerance * tolerance && std::abs(runs.back().at.slip - runs.front().at.slip) <= 2 * tolerance;
+}
+
+/// Whether slip and load go from row to row by a fifth of a setpoint's tolerance or less.
+bool hardly_changes(const std::vector<Run>& runs) {
+  constexpr double hardly = 0.2;
+  std::vector<double> loads;
+  for (const Run& run : runs) loads.push_back(run.at.load);
+  return noise_in_steps(slips_of(runs)) <= hardly * setpoint_tolerance("slip", "-", 1.0) &&
+         noise_in_steps(loads) <= hardly * setpoint_tolerance("load", "N", upper_median(loads));
+}
+
+std::string file_of(const Campaign& campaign) {
+  return campaign.columns.empty() || campaign.columns.begin()->second.at.file.empty()
+             ? campaign.data
+             : campaign.columns.begin()->second.at.file;
+}
+
+/// What makes rows look like samples, one of these alone; the last two may stand together with a smooth channel.
+struct SampleSigns {
+  Said clock = "", of_one_number = "", at_one_setpoint = "", hardly_changing = "";
+};
+
+Doubts samples(const Campaign& campaign, const SampleSigns& signs, const RowCorrelation& smooth = {}) {
+  const bool smoothly = smooth.value > 0.0;
+  return {Doubt{DoubtKind::rows_are_samples,
+                {file_of(campaign), signs.clock, signs.of_one_number, signs.at_one_setpoint, signs.hardly_changing,
+                 smoothly ? smooth.channel : "", smoothly ? Said(smooth.value) : Said("")}}};
+}
+
+/// One on rows that look like samples, or none.
+Doubts doubts_of_samples(const Campaign& campaign) {
+  const std::vector<Run>& runs = campaign.runs;
+  for (const IgnoredColumn& column : campaign.ignored)
+    if (names_a_clock(column.header) && goes_on_evenly(column.texts))
+      return samples(campaign, {.clock = clipped(column.header)});
+  if (runs.size() < 2) return {};
+  const double rows = static_cast<double>(runs.size());
+  std::size_t numbers = 1;
+  for (std::size_t i = 1; i < runs.size(); ++i) numbers += !runs[i].at.run || runs[i].at.run != runs[i - 1].at.run;
+  constexpr double of_one_number = 3.0;
+  if (rows >= of_one_number * static_cast<double>(numbers))
+    return samples(campaign, {.of_one_number = rows / static_cast<double>(numbers)});
+
+  constexpr std::size_t long_stretch = 10, short_stretch = 4, few_rows = 40, of_a_ramp = 20, rows_of_a_ramp = 100;
+  const std::vector<std::size_t> starts = starts_at_one_setpoint(runs);
+  const RowCorrelation smooth = smoothness(runs, starts);
+  std::size_t in_long = 0, longs = 0;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const std::size_t size = (k + 1 < starts.size() ? starts[k + 1] : runs.size()) - starts[k];
+    const std::vector<Run> stretch = runs_between(runs, starts, k);
+    if (size >= long_stretch && holds_slip(stretch) && !is_ramp(stretch)) in_long += size, ++longs;
+  }
+  if (2 * in_long >= runs.size() && (longs > 1 || smooth.value > 0.0))
+    return samples(campaign, {.at_one_setpoint = in_long / longs}, smooth);
+  const std::size_t usual = runs.size() / starts.size();
+  if (usual >= short_stretch && runs.size() >= few_rows && smooth.value > 0.0)
+    return samples(campaign, {.at_one_setpoint = usual}, smooth);
+  if (usual >= of_a_ramp && runs.size() >= rows_of_a_ramp && hardly_changes(runs))
+    return samples(campaign, {.hardly_changing = runs.size()}, smooth);
+  return {};
+}
+
+}  // namespace
+
+Doubts signs_of_a_log(const Campaign& campaign) {
+  Doubts signs = doubts_of_samples(campaign);
+  for (const IgnoredColumn& column : campaign.ignored) {
+    if (!names_the_wheel(column.header)) continue;
+    const std::set<std::string> wheels(column.texts.begin(), column.texts.end());
+    if (wheels.size() < 2) continue;
+    signs.push_back(
+        {DoubtKind::several_wheels, {clipped(column.header), wheels.size(), listed({wheels.begin(), wheels.end()})}});
+  }
+  return signs;
+}
+
 namespace {
 
 /// What no wheel does.

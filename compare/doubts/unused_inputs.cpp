@@ -1,11 +1,10 @@
-#include "compare/doubts/unused_inputs.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 
 #include "bekker_wong/effect.hpp"
+#include "compare/doubts/doubts.hpp"
 
 namespace soilbin::compare {
 namespace {

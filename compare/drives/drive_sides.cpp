@@ -3,15 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "compare/doubts/doubts.hpp"
 #include "compare/recorded/recorded_model.hpp"
-#include "compare/report/number_text.hpp"
 #include "scenario/drive_way.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/nearest_word.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "compare/bevameter/test_rows.hpp"
+#include "compare/bevameter/plate_tests.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/errors.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "compare/experiments/run_plan.hpp"
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "scenario/errors.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "compare/experiments/soil_bin_runs.hpp"
-#include "compare/report/page.hpp"
+#include "compare/report/table.hpp"
 
 namespace soilbin::compare {
 

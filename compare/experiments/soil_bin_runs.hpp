@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "compare/experiments/replay_recorder.hpp"
-#include "compare/recorded/run_specs.hpp"
 #include "compare/recorded/run_store.hpp"
 #include "compare/recorded/watch.hpp"
 #include "dem/rig/dem_model.hpp"

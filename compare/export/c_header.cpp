@@ -9,7 +9,7 @@
 
 #include "compare/export/force_table.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/sweep/sources.hpp"
+#include "compare/sweep/explanation.hpp"
 #include "compare/sweep/varying.hpp"
 
 namespace soilbin::compare {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/export/wheel_fmu_source.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/checksum.hpp"
 #include "scenario/drive.hpp"

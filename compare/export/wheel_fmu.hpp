@@ -69,4 +69,10 @@ struct CompiledC {
 /// afterwards.
 CompiledC compiled_by_cc(const std::vector<PackedFile>& files, const std::string& main);
 
+/// The part of the unit's source that does not depend on the table: declarations of the standard, equations of motion,
+/// the standard's functions, in C99. Needs above it: the variables as an enum with the prefix V_, REALS, `roles`,
+/// `starts`, AXES, `axis_names`, `axis_values`, the table's names with the prefix TABLE_, and the macros FMU_GUID,
+/// RADIUS, STIFFEST_PULL, STIFFEST_TORQUE, SHORTEST_RELAXATION, LOAD, INCLINE, IN_PLANE, LOOK_UP and TELL_CHANNELS.
+extern const char* const wheel_in_c;
+
 }  // namespace soilbin::compare

@@ -1,4 +1,4 @@
-#include "compare/export/wheel_fmu_source.hpp"
+#include "compare/export/wheel_fmu.hpp"
 
 namespace soilbin::compare {
 

@@ -3,9 +3,228 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/fit/descent.hpp"
+#include "compare/fit/factorizations.hpp"
+#include "compare/fit/thresholds.hpp"
 
 namespace soilbin::compare {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Rows of the priors: (prior - theta)/sd.
+VectorXd prior_residual(const std::vector<FreeParameter>& parameters, const VectorXd& theta) {
+  std::vector<double> rows;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (std::isfinite(parameters[i].prior_sd))
+      rows.push_back((parameters[i].prior - theta[i]) / parameters[i].prior_sd);
+  return Eigen::Map<VectorXd>(rows.data(), rows.size());
+}
+
+MatrixXd prior_columns(const std::vector<FreeParameter>& parameters) {
+  const Index n = parameters.size();
+  MatrixXd rows = MatrixXd::Zero(n, n);
+  Index row = 0;
+  for (Index i = 0; i < n; ++i) {
+    const FreeParameter& p = parameters[i];
+    if (std::isfinite(p.prior_sd)) rows(row++, i) = p.scale / p.prior_sd;
+  }
+  return rows.topRows(row);
+}
+
+/// Gain far below what any decision turns on.
+double negligible(double chi2) { return std::max(2e-3, 1e-4 * chi2); }
+
+/// Columns that span the ways along all of these walls.
+MatrixXd along(const MatrixXd& walls, const std::vector<int>& touched) {
+  const Index n = walls.cols();
+  if (touched.empty()) return MatrixXd::Identity(n, n);
+  return orthogonal_complement(walls(touched, Eigen::all).transpose());
+}
+
+/// The walls that are touched and that the way downhill leads into.
+std::vector<int> active_walls(const MatrixXd& walls, const VectorXd& room, const VectorXd& downhill) {
+  std::vector<int> touched;
+  for (Index w = 0; w < room.size(); ++w)
+    if (room[w] <= 0.0) touched.push_back(static_cast<int>(w));
+  while (!touched.empty()) {
+    const MatrixXd normals = walls(touched, Eigen::all).transpose();
+    const VectorXd push = least_squares(normals, downhill);
+    Index least = 0;
+    if (push.minCoeff(&least) >= 0.0) break;
+    touched.erase(touched.begin() + least);
+  }
+  return touched;
+}
+
+/// The step of the damped normal equations, from wall to wall: where it meets one, it goes on along it.
+VectorXd damped_step(const AugmentedLine& l, const MatrixXd& walls, const VectorXd& room, double damping) {
+  VectorXd step = VectorXd::Zero(l.columns.cols());
+  MatrixXd normal = l.columns.transpose() * l.columns;
+  const VectorXd drag = damping * normal.diagonal().array() + 1e-10;
+  normal.diagonal() += drag;
+  const VectorXd downhill = l.columns.transpose() * l.residual;
+  std::vector<int> touched = active_walls(walls, room, downhill);
+  for (Index leg = 0; leg <= step.size(); ++leg) {
+    const MatrixXd free = along(walls, touched);
+    if (free.cols() == 0) break;
+    const VectorXd way =
+        free * Ldlt(free.transpose() * normal * free).solve(VectorXd(free.transpose() * (downhill - normal * step)));
+    double reach = 1.0;
+    int stops = -1;
+    for (Index w = 0; w < room.size(); ++w) {
+      const double nearer = walls.row(w).dot(way), left = room[w] - walls.row(w).dot(step);
+      const bool new_one = std::ranges::find(touched, w) == touched.end();
+      if (new_one && nearer > 1e-12 && left < reach * nearer)
+        reach = std::max(0.0, left / nearer), stops = static_cast<int>(w);
+    }
+    step += reach * way;
+    if (stops < 0) break;
+    touched.push_back(stops);
+  }
+  return step;
+}
+
+/// What the linearised model expects of a step in chi2.
+double promised_gain(const AugmentedLine& l, const VectorXd& step) {
+  return l.residual.squaredNorm() - (l.residual - l.columns * step).squaredNorm();
+}
+
+}  // namespace
+
+Descent::Descent(const WheelPredictor& predictor, const VectorXd& values, const Whitening& whitening,
+                 BalanceMemory near)
+    : predictor_(predictor), values_(values), whitening_(whitening) {
+  here_.memory = std::move(near);
+  const Index n = predictor.parameters().size();
+  scale_.resize(n);
+  for (Index i = 0; i < n; ++i) scale_[i] = predictor.parameters()[i].scale;
+  const std::vector<Wall> walls = predictor.walls();
+  walls_.resize(walls.size(), n);
+  limits_.resize(walls_.rows());
+  for (Index w = 0; w < limits_.size(); ++w) {
+    const Wall& wall = walls[w];
+    const VectorXd normal = wall.normal.cwiseProduct(scale_);
+    walls_.row(w) = normal.transpose() / normal.norm();
+    limits_[w] = wall.limit / normal.norm();
+  }
+}
+
+VectorXd Descent::residual(const Point& at) const {
+  const VectorXd cells = whitening_(VectorXd(values_ - at.prediction));
+  const VectorXd prior = prior_residual(predictor_.parameters(), at.theta);
+  const std::vector<double>& s = at.memory.shortfall;
+  VectorXd residual(cells.size() + prior.size() + s.size());
+  residual << cells, prior, Eigen::Map<const VectorXd>(s.data(), s.size()) / -thresholds::load_deficit_sd;
+  return residual;
+}
+
+std::optional<Descent::Point> Descent::try_at(const VectorXd& theta, double limit) {
+  Point point{.theta = theta, .prediction = {}, .memory = here_.memory};
+  if (here_.theta.size() > 0) point.memory = here_.memory.moved_by(theta - here_.theta, slopes_);
+  PartialChi2 chi2(whitening_);
+  chi2.add(prior_residual(predictor_.parameters(), theta).squaredNorm());
+  const double beyond = limit * (1 + 1e-9);  // more than another order of the sum makes of it
+  const auto goes_on = [&](Index first, Index count, const VectorXd& prediction, double shortfall) {
+    chi2.add(std::pow(shortfall / thresholds::load_deficit_sd, 2));
+    chi2.add(first, values_.segment(first, count) - prediction.segment(first, count));
+    return !chi2.exceeds(beyond);
+  };
+  const bool ended = !predictor_.predict(theta, point.prediction, point.memory, goes_on);
+  here_.memory.order = point.memory.order;
+  if (ended) return {};
+  point.chi2 = residual(point).squaredNorm();
+  return point;
+}
+
+bool Descent::stand_at(Point point) {
+  auto slopes = predictor_.linearise(point.theta, point.memory);
+  if (!slopes) return false;
+  here_ = std::move(point), slopes_ = std::move(*slopes);
+  return true;
+}
+
+bool Descent::move_to(VectorXd theta, bool gives_way) {
+  here_.memory.gives_way = gives_way;
+  for (Index w = 0; w < limits_.size(); ++w) {
+    const double beyond = walls_.row(w).dot(theta.cwiseQuotient(scale_)) - limits_[w];
+    if (beyond > 0.0) theta -= beyond * walls_.row(w).transpose().cwiseProduct(scale_);
+  }
+  auto point = try_at(theta);
+  return point && stand_at(std::move(*point));
+}
+
+bool Descent::carries(const Point& at) {
+  return std::ranges::all_of(at.memory.shortfall, [](double s) { return s == 0.0; });
+}
+
+bool Descent::would_carry(const VectorXd& theta) {
+  const auto there = try_at(theta);
+  return there && carries(*there);
+}
+
+BalanceMemory Descent::balance() const {
+  BalanceMemory memory = here_.memory.moved_by(VectorXd::Zero(scale_.size()), slopes_);
+  memory.gives_way = true;
+  return memory;
+}
+
+AugmentedLine Descent::line() const {
+  AugmentedLine l;
+  l.residual = residual(here_);
+  l.columns.resize(l.residual.size(), scale_.size());
+  l.columns << whitening_(MatrixXd(slopes_.jacobian * scale_.asDiagonal())), prior_columns(predictor_.parameters()),
+      slopes_.shortfall_slopes * (scale_ / thresholds::load_deficit_sd).asDiagonal();
+  return l;
+}
+
+VectorXd Descent::strengthening_direction() const {
+  const MatrixXd all = line().columns, kept = all.topRows(all.rows() - slopes_.shortfall_slopes.rows());
+  MatrixXd cost = kept.transpose() * kept;
+  cost.diagonal().array() += 1e-10;
+  const VectorXd carries_more = -(slopes_.shortfall_slopes * scale_.asDiagonal()).colwise().sum().transpose();
+  return Ldlt(cost).solve(carries_more).cwiseProduct(scale_);
+}
+
+/// How far each wall is, not less than 0; what a last digit leaves is nothing.
+VectorXd Descent::room() const {
+  const VectorXd left = limits_ - walls_ * here_.theta.cwiseQuotient(scale_);
+  return left.unaryExpr([](double l) { return l < 1e-12 ? 0.0 : l; });
+}
+
+double Descent::step_down(const AugmentedLine& l) {
+  constexpr int attempts = 12;
+  const VectorXd room = this->room();
+  double growth = 2.0;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    const VectorXd step = damped_step(l, walls_, room, damping_);
+    if (auto there = try_at(predictor_.within_bounds(here_.theta + step.cwiseProduct(scale_)), here_.chi2);
+        there && there->chi2 < here_.chi2) {
+      const double gain = here_.chi2 - there->chi2, kept = 2 * gain / promised_gain(l, step) - 1;
+      if (stand_at(std::move(*there))) {
+        damping_ = std::max(damping_ * std::max(0.1, 1 - kept * kept * kept), 1e-9);  // Nielsen's rule
+        return gain;
+      }
+    }
+    damping_ *= growth, growth *= 2;
+  }
+  return 0.0;
+}
+
+void Descent::minimise() {
+  constexpr int most_steps = 60, most_slow_steps = 4;
+  constexpr double slow = 3.0;  // times the negligible gain
+  damping_ = 1e-3;
+  for (int steps = 0, slow_steps = 0; steps < most_steps && slow_steps < most_slow_steps; ++steps) {
+    const AugmentedLine l = line();
+    if (promised_gain(l, damped_step(l, walls_, room(), 0.0)) < negligible(here_.chi2)) return;
+    const double gain = step_down(l);
+    if (gain == 0.0) return;
+    slow_steps = gain < slow * negligible(here_.chi2) ? slow_steps + 1 : 0;
+  }
+}
 
 using Eigen::Index;
 using Eigen::MatrixXd;

@@ -89,7 +89,6 @@ std::vector<Tolerance> tolerances_of(const FittedModel& model) {
   return each;
 }
 
-/// The columns of all tolerances as one matrix.
 MatrixXd side_by_side(Index cells, const std::vector<Tolerance>& tolerances) {
   Index width = 0;
   for (const Tolerance& t : tolerances) width += t.columns.cols();

@@ -186,7 +186,6 @@ struct ChannelFit {
   VectorXd chance, plain;
 };
 
-/// Cells of one channel, gathered.
 struct ChannelCells {
   std::vector<Index> cell;
   std::vector<int> row;

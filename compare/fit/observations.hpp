@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "compare/measured/campaign.hpp"
-#include "compare/measured/channels.hpp"
 
 namespace soilbin::compare {
 
@@ -59,7 +58,6 @@ Observations observe(const Campaign& campaign);
 /// The rows for which keep[condition] holds (conditions keep their numbers' order, renumbered from 0).
 Observations of_conditions(const Observations& all, const std::vector<bool>& keep);
 
-/// Without the cells for which drop holds.
 Observations without_cells(const Observations& all, const std::vector<bool>& drop);
 
 /// The cells in the order in which the runs were made, where every row tells its own; else as the file has them.

@@ -46,7 +46,6 @@ FitBounds fit_bounds(const SoilParameter& parameter) {
   return bounds;
 }
 
-/// Mean and half range of a covariate.
 struct Extent {
   double mean, half_range;
 };

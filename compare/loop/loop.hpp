@@ -7,14 +7,14 @@
 //   1 observe            Campaign -> Observations                       fit/observations.hpp
 //   2 fit_base           -> FittedModel: noise, outliers, base fit      attribution/base_fit.hpp, fit/fitted_model.hpp
 //   3 residual_signatures, 4 candidates: attribute -> Attribution       attribution/signatures.hpp, candidates.hpp
-//   5 choose, judge      -> ChosenCandidate, Judgement: the verdict     attribution/choice.hpp, verdict.hpp
+//   5 choose, judge      -> ChosenCandidate, Judgement: the verdict     attribution/choice.hpp
 //     and where the residual is more than named effects explain:
-//       attribute_with_model_discrepancy                                attribution/model_discrepancy.hpp
+//       attribute_with_model_discrepancy                                attribution/candidates.hpp
 //       learn_effects    smooth functions of the conditions             attribution/learned_effect.hpp
-//       find_formula     a few terms in the place of one                attribution/learned_formula.hpp
+//       find_formula     a few terms in the place of one                attribution/learned_effect.hpp
 //   6 cross_validate     -> CrossValidation: honest errors              attribution/validation.hpp
 //   7 next_test          -> NextRun                                    test_design/next_run.hpp
-//   8 LoopAnswer, and what it implies                                   findings.cpp; told by telling/loop_report.hpp
+//   8 LoopAnswer, and what it implies                                   told by telling/loop_report.hpp
 #pragma once
 
 #include <map>
@@ -25,9 +25,9 @@
 #include <variant>
 #include <vector>
 
-#include "compare/attribution/learned_formula.hpp"
+#include "compare/attribution/choice.hpp"
+#include "compare/attribution/learned_effect.hpp"
 #include "compare/attribution/validation.hpp"
-#include "compare/attribution/verdict.hpp"
 #include "compare/test_design/next_run.hpp"
 
 namespace soilbin::compare {
@@ -169,7 +169,6 @@ struct LoopAnswer {
   }
 };
 
-/// Ids of some effects.
 std::set<std::string> ids_of(const std::vector<AcceptedEffect>& effects);
 
 /// Sets worth showing: those that compete, then those that stand next.

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -21,6 +22,7 @@
 #include "scenario/library.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/source_text.hpp"
+#include "scenario/traction_channels.hpp"
 
 namespace soilbin::compare {
 
@@ -72,7 +74,7 @@ struct Campaign {
   std::map<std::string, DataColumn>
       columns;  ///< of the data file, by quantity; without a file, those that campaign.yaml names
   std::vector<Run> runs;
-  std::vector<IgnoredColumn> ignored{};  ///< they may tell that the rows are no runs (doubts/log_signs.hpp)
+  std::vector<IgnoredColumn> ignored{};  ///< they may tell that the rows are no runs (doubts/row_doubts.cpp)
   std::optional<Estimate> cone_index{}, cone_index_gradient{};  ///< as of a Soil; read by the model cone_index alone
 };
 
@@ -120,5 +122,23 @@ std::map<std::string, DataColumn> declared_columns(const std::filesystem::path& 
 /// Writes campaign.yaml and the data file into a folder (made where it is missing). Reading them gives the same
 /// campaign; an angle may differ in the last bit. Throws std::runtime_error where a file can't be written.
 void write_campaign(const std::filesystem::path& folder, const Campaign& campaign, const EffectVocabulary& effects);
+
+// soilbin-campaign/1 as JSON Schema, made from the descriptions that the reader visits.
+
+nlohmann::ordered_json campaign_schema(const EffectVocabulary& effects);
+
+// The four measured channels (drawbar pull, torque, sinkage, lateral force) as members of a run, so that code can go
+// over them.
+
+struct ChannelView : TractionChannel {
+  std::optional<double> Run::*measured;
+};
+
+inline constexpr std::array<ChannelView, 4> channel_views = {{
+    {traction_channels[0], &Run::drawbar_pull},
+    {traction_channels[1], &Run::torque},
+    {traction_channels[2], &Run::sinkage},
+    {traction_channels[3], &Run::lateral_force},
+}};
 
 }  // namespace soilbin::compare

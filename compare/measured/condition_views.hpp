@@ -1,9 +1,11 @@
 // The conditions that a campaign can vary: their names in files and for people, their units, and where they stand.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -71,9 +73,15 @@ inline constexpr std::array<ConditionView, 11> condition_views = [] {
 }();
 
 /// Throws std::out_of_range for a name that is none of them.
-const ConditionView& condition_view(std::string_view name);
+inline const ConditionView& condition_view(std::string_view name) {
+  const auto found = std::ranges::find(condition_views, name, &ConditionView::name);
+  if (found == condition_views.end()) throw std::out_of_range("a condition of no such name: " + std::string(name));
+  return *found;
+}
 
 /// "uphill [deg]"; the title alone of a plain number.
-std::string heading(const ConditionView& view);
+inline std::string heading(const ConditionView& view) {
+  return std::string(view.title) + (view.unit.empty() ? "" : " [" + std::string(view.unit) + "]");
+}
 
 }  // namespace soilbin::compare

@@ -6,7 +6,7 @@
 #include <set>
 #include <span>
 
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/measured/stretches.hpp"
 #include "compare/measured/time_log.hpp"
 #include "compare/measured/within_run_scatter.hpp"

@@ -20,7 +20,6 @@ std::string in_small_letters(std::string text) {
   return text;
 }
 
-/// What a header of a log holds.
 struct LogHeader {
   enum class Holds { quantity, clock, run, setpoint, wheel, nothing };
   Holds holds = Holds::nothing;

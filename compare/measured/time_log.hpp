@@ -37,7 +37,6 @@ bool names_a_clock(const std::string& header);
 /// Whether a column of this name tells which wheel a row is of: "wheel", "tire", "tyre".
 bool names_the_wheel(const std::string& header);
 
-/// How a log is read.
 struct LogReading {
   std::map<std::string, DataColumn> columns{};              ///< names and units that a campaign declares, by quantity
   std::vector<std::pair<std::string, std::string>> only{};  ///< rows that have this text in this column alone

@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"

@@ -32,7 +32,6 @@ struct StepPair {
 /// of twenty (normal errors, Bonferroni).
 inline constexpr double step_alike = 2.4;
 
-/// The pairs that a record carries.
 std::vector<StepPair> step_pairs(const Record& record);
 
 /// Whether no channel differs by more than step_alike standard errors. A pair without results is not.

@@ -14,12 +14,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// One library: its file, Debian's folder of it, its package, and where its text goes.
-struct Place {
+struct PlaceOfLibrary {
   const char *file, *folder, *package;
   std::optional<std::string> Libraries::*text;
 };
 
-constexpr std::array<Place, 3> places = {{
+constexpr std::array<PlaceOfLibrary, 3> places = {{
     {"d3.min.js", "/usr/share/nodejs/d3/dist", "node-d3", &Libraries::d3},
     {"three.min.js", "/usr/share/javascript/three", "libjs-three", &Libraries::three},
     {"OrbitControls.js", "/usr/share/javascript/three/examples/js/controls", "libjs-three", &Libraries::orbit},
@@ -44,7 +44,7 @@ std::string embedded(const std::vector<EmbeddedFile>& files, const std::string& 
 Libraries find_libraries() {
   Libraries libraries;
   const char* own_folder = std::getenv("SOILBIN_JAVASCRIPT");
-  for (const Place& place : places) {
+  for (const PlaceOfLibrary& place : places) {
     libraries.*place.text = text_of(fs::path(own_folder != nullptr ? own_folder : place.folder) / place.file);
     const bool listed = !libraries.missing.empty() && libraries.missing.back() == place.package;
     if (!(libraries.*place.text) && !listed) libraries.missing.emplace_back(place.package);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -28,6 +29,18 @@ inline Json estimate_json(const Estimate& estimate) {
   return {{"value", finite(estimate.value)}, {"std_error", finite(estimate.std_error)}};
 }
 
+inline Json or_null(const std::optional<Estimate>& estimate) {
+  return estimate ? estimate_json(*estimate) : Json(nullptr);
+}
+
+/// A list with what `make` gives of each value, in their order.
+template <class Values, class Make>
+Json list_of(const Values& values, const Make& make) {
+  Json list = Json::array();
+  for (const auto& value : values) list.push_back(std::invoke(make, value));
+  return list;
+}
+
 /// The text of a document: indented, and never an exception for bytes that are not UTF-8.
 inline std::string json_text(const Json& document) {
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -45,8 +58,7 @@ class WriteJson {
   void flag(std::string_view key, bool value, const char*) { to_[std::string(key)] = value; }
   void text(std::string_view key, const std::string& value, const char*) { to_[std::string(key)] = value; }
   void numbers(std::string_view key, const std::vector<double>& values, const char*, const char*) {
-    Json& all = to_[std::string(key)] = Json::array();
-    for (const double value : values) all.push_back(finite(value));
+    to_[std::string(key)] = list_of(values, finite);
   }
   template <class Members>
   void group(std::string_view key, const char*, const Members& members) {

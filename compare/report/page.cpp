@@ -17,13 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Escaped prose whose percent signs stay with their numbers.
-std::string prose(const std::string& text) {
-  std::string out = escaped(text);
-  for (std::size_t at = out.find(" %"); at != std::string::npos; at = out.find(" %", at)) out.replace(at, 1, "\u00a0");
-  return out;
-}
-
 std::string numbered(std::size_t section) { return fmt::format("part-{}", section + 1); }
 
 std::string id_attribute(const std::string& anchor) { return anchor.empty() ? "" : " id=\"" + escaped(anchor) + "\""; }
@@ -149,26 +142,6 @@ void Page::describe(const std::string& text) {
   if (description_.empty()) description_ = text;
 }
 
-void Page::summary(const std::vector<BackedSentence>& sentences) {
-  if (!sentences.empty()) describe(sentences.front().text);
-  body_ += "<div class=\"summary\">";
-  for (const BackedSentence& sentence : sentences) {
-    body_ += "<p>" + (sentence.about.empty() ? "" : "<b>" + escaped(sentence.about) + ".</b> ") + prose(sentence.text);
-    for (const auto& [anchor, text] : sentence.evidence)
-      body_ += fmt::format(" <a class=\"evidence\" href=\"#{}\">{}</a>", escaped(anchor), escaped(text));
-    if (!sentence.detail.empty()) body_ += " <small>" + prose(sentence.detail) + "</small>";
-    body_ += "</p>";
-  }
-  body_ += "</div>\n";
-}
-
-void Page::figures_at_a_glance(const std::vector<KeyFigure>& figures) {
-  body_ += "<div class=\"glance\">";
-  for (const KeyFigure& figure : figures)
-    body_ += "<div><b>" + escaped(figure.value) + "</b><span>" + escaped(figure.meaning) + "</span></div>";
-  body_ += "</div>\n";
-}
-
 void Page::section(const std::string& title, const std::string& anchor) {
   sections_.emplace_back(anchor.empty() ? numbered(sections_.size()) : anchor, title);
   body_ += fmt::format("<h2{}>{}</h2>\n", id_attribute(sections_.back().first), escaped(title));
@@ -178,18 +151,6 @@ void Page::place(const std::string& title, const std::string& anchor) {
   sections_.emplace_back(anchor, title);
   body_ += fmt::format("<span{}></span>\n", id_attribute(anchor));
 }
-
-void Page::subsection(const std::string& title) { body_ += "<h3>" + escaped(title) + "</h3>\n"; }
-
-void Page::paragraph(const std::string& text) { body_ += "<p>" + prose(text) + "</p>\n"; }
-
-void Page::list(const std::vector<std::string>& items) {
-  body_ += "<ul>";
-  for (const std::string& item : items) body_ += "<li>" + prose(item) + "</li>";
-  body_ += "</ul>\n";
-}
-
-void Page::table(const Table& table) { body_ += html_of(table); }
 
 void Page::figure(const Sheet& sheet, const std::string& caption) {
   sheets_.push_back(sheet);
@@ -205,38 +166,6 @@ void Page::figure(const Sheet& sheet, const std::string& caption) {
   body_ += "</div><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
 }
 
-void Page::code(const std::string& text) { body_ += "<pre><code>" + escaped(text) + "</code></pre>\n"; }
-
-void Page::cards(const std::vector<PageCard>& cards) {
-  body_ += "<div class=\"cards\">";
-  for (const PageCard& card : cards)  // titles, lines and drawings are escaped already: page_card
-    body_ += fmt::format("<a class=\"card\" href=\"{}\">{}<b>{}</b><span>{}</span></a>\n", escaped(card.href),
-                         card.drawing, card.title, card.line);
-  body_ += "</div>\n";
-}
-
-void Page::drawing(const std::string& svg, const std::string& caption) {
-  body_ +=
-      "<figure><div class=\"panels\">" + svg + "</div><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
-}
-
-void Page::heat_maps(const std::vector<std::string>& maps, const std::string& caption) {
-  body_ += "<figure><div class=\"maps\">";
-  for (const std::string& map : maps) body_ += "<div>" + map + "</div>\n";
-  body_ += "</div><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
-}
-
-void Page::choices(const std::string& what, const std::vector<Choice>& parts, std::size_t first) {
-  body_ += fmt::format("<div class=\"choices\" data-what=\"{}\">\n", escaped(what));
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    body_ += fmt::format("<div class=\"choice\" data-name=\"{0}\"{1}><h3>{0}</h3>\n", escaped(parts[i].name),
-                         i == first ? " data-first" : "");
-    parts[i].fill();
-    body_ += "</div>\n";
-  }
-  body_ += "</div>\n";
-}
-
 void Page::replay(const std::string& title, const std::string& bytes, const std::string& caption) {
   has_replay_ = true;
   const bool can = libraries_.three && libraries_.orbit;
@@ -249,12 +178,6 @@ void Page::replay(const std::string& title, const std::string& bytes, const std:
       escaped(caption));
   if (can) body_ += "<script type=\"text/plain\" id=\"replay-data\">" + base64(bytes) + "</script>\n";
 }
-
-void Page::open_fold(const std::string& title, const std::string& anchor) {
-  body_ += "<details" + id_attribute(anchor) + "><summary>" + escaped(title) + "</summary>\n";
-}
-
-void Page::close_fold() { body_ += "</details>\n"; }
 
 std::string Page::scripts() const {
   nlohmann::ordered_json figures = nlohmann::ordered_json::object();

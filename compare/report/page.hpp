@@ -2,24 +2,21 @@
 // nothing loaded. Its scripts are inline too; without them everything but the replay is still there.
 //
 //   Page page("Title", "one line below it");
-//   page.summary({{"Straight driving", "Plain words first."}, {"", "A sentence without a name."}});
 //   page.section("Straight driving");
-//   page.paragraph("What was asked.");
 //   page.figure(sheet, "What to see in it.");
-//   page.table(table);
-//   page.code("soilbin run paper-straight");
-//   write_file_atomically("report.html", page.html());
+//   page.raw("<p>What was asked.</p>");
+//   write_file_atomically("page.html", page.html());
+//
+// A report (report.hpp) is told on one by page_of.
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "compare/report/javascript.hpp"
 #include "compare/report/plot.hpp"
-#include "compare/report/table.hpp"
 
 namespace soilbin::compare {
 
@@ -31,7 +28,6 @@ struct PageAbout {
   std::vector<std::string> doubts{};  ///< in what the page says (compare/doubts/doubts.hpp)
 };
 
-/// A row of key figures.
 struct KeyFigure {
   std::string value, meaning;
 };
@@ -56,12 +52,6 @@ struct PageCard {
 /// file or it is no such page.
 PageCard page_card(const std::filesystem::path& page, const std::filesystem::path& from);
 
-/// Parts of which a reader looks at one at a time.
-struct Choice {
-  std::string name;  ///< in the list to choose from
-  std::function<void()> fill;
-};
-
 /// A page that grows from top to bottom. Its figures are charts to zoom and to read by mouse and keys, each with
 /// buttons that save it (SVG, PNG) and its data (copy, CSV, JSON); without scripts they are drawings. Every text is
 /// escaped; none is taken as HTML, but for `raw`.
@@ -69,44 +59,19 @@ class Page {
  public:
   Page(std::string title, std::string subtitle);
 
-  /// Plain-words sentences in a box, each behind the name of what it is about (or "") and followed by links to what
-  /// backs it.
-  void summary(const std::vector<BackedSentence>& sentences);
-  void figures_at_a_glance(const std::vector<KeyFigure>& figures);
   /// A heading with an anchor; the page's table of contents lists it.
   void section(const std::string& title, const std::string& anchor = "");
   /// A place that the table of contents lists, without a heading of its own.
   void place(const std::string& title, const std::string& anchor);
-  void subsection(const std::string& title);
-  void paragraph(const std::string& text);
-  void list(const std::vector<std::string>& items);
-  void table(const Table& table);
   /// The sheet's panels side by side as the width allows, its legend above them, a caption below.
   void figure(const Sheet& sheet, const std::string& caption);
-  /// A drawing of its own, an <svg> element, with a caption.
-  void drawing(const std::string& svg, const std::string& caption);
-  /// Heat maps (heat_map.hpp) side by side as the width allows, each at its own size, with one caption.
-  void heat_maps(const std::vector<std::string>& maps, const std::string& caption);
-  void code(const std::string& text);
-  /// Links to other pages, each with its drawing, side by side as the width allows.
-  void cards(const std::vector<PageCard>& cards);
-  /// One of the parts at a time, chosen from a list; all of them below each other where there are no scripts. `first`
-  /// is shown at the start.
-  void choices(const std::string& what, const std::vector<Choice>& parts, std::size_t first);
+  /// A replay to look at in 3D, the bytes of its file; without scripts its title and caption alone.
+  void replay(const std::string& title, const std::string& bytes, const std::string& caption);
   /// What makes its figures interactive, as find_libraries() found it.
   const Libraries& libraries() const { return libraries_; }
   /// A script of the caller's, after the page's own.
   void script(const std::string& text) { extra_scripts_ += text; }
-  /// A replay to look at in 3D, the bytes of its file; without scripts its title and caption alone.
-  void replay(const std::string& title, const std::string& bytes, const std::string& caption);
-  /// A folded part that a click opens: what `fill` adds to the page goes into it.
-  template <class Fill>
-  void folded(const std::string& title, const Fill& fill, const std::string& anchor = "") {
-    open_fold(title, anchor);
-    fill();
-    close_fold();
-  }
-  /// What the page says first, for who links to it; without it the summary's first sentence.
+  /// What the page says first, for who links to it: the first of several.
   void describe(const std::string& text);
   /// HTML that the caller answers for.
   void raw(const std::string& html) { body_ += html; }
@@ -114,8 +79,6 @@ class Page {
   std::string html() const;
 
  private:
-  void open_fold(const std::string& title, const std::string& anchor);
-  void close_fold();
   std::string scripts() const;
 
   std::string title_, subtitle_, body_, extra_scripts_;

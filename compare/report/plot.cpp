@@ -84,6 +84,12 @@ std::string legend_rows(const Sheet& sheet, double width, double& y) {
 
 }  // namespace
 
+Series fitted_curve(std::string label, int color, double to, const std::function<double(double)>& y) {
+  Series line{.label = std::move(label), .color = color};
+  for (int i = 0; i <= 100; ++i) line.x.push_back(1e3 * (to * i / 100)), line.y.push_back(y(to * i / 100));
+  return line;
+}
+
 std::vector<Color> colors(Palette palette) {
   if (palette == Palette::named)
     return {{"#0b63a8", "#6cb6ff"}, {"#c2500a", "#ff9a57"}, {"#0a7f5c", "#4fd1a1"},
@@ -156,9 +162,7 @@ namespace {
 double shortened(double value) { return read_number(fmt::format("{:.6g}", value)).value_or(value); }
 
 Json numbers(const std::vector<double>& values) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(finite(shortened(value)));
-  return list;
+  return list_of(values, [](double value) { return finite(shortened(value)); });
 }
 
 Json axis_json(const Axis& axis) {

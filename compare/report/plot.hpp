@@ -4,6 +4,7 @@
 // its colour, so that a page can give it other colours in the dark (page.hpp does).
 #pragma once
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -39,6 +40,17 @@ struct Axis {
   std::optional<double> lower{};  ///< absent: what the series need
   std::optional<double> upper{};
 };
+
+/// The series with a point for each of the samples behind its own; x and y: members, or functions of a sample.
+template <class Samples, class X, class Y>
+Series over_samples(Series series, const Samples& samples, const X& x, const Y& y) {
+  for (const auto& sample : samples)
+    series.x.push_back(std::invoke(x, sample)), series.y.push_back(std::invoke(y, sample));
+  return series;
+}
+
+/// A line through y at 101 places from 0 to `to`, a thousand times as large: a fit's curve over readings in m, in mm.
+Series fitted_curve(std::string label, int color, double to, const std::function<double(double)>& y);
 
 /// One panel.
 struct Plot {

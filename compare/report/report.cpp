@@ -20,6 +20,13 @@ Table table_of(const NamedValues& values) {
   return table;
 }
 
+/// Escaped prose whose percent signs stay with their numbers.
+std::string prose(const std::string& text) {
+  std::string out = escaped(text);
+  for (std::size_t at = out.find(" %"); at != std::string::npos; at = out.find(" %", at)) out.replace(at, 1, "\u00a0");
+  return out;
+}
+
 /// Sentences follow each other, anything else stands between blank lines.
 class TerminalWriter {
  public:
@@ -64,10 +71,10 @@ class TerminalWriter {
   bool ends_with_block_ = false;
 };
 
-class PageWriter {
+class PageWriter : public Page {
  public:
   PageWriter(const Report& report, const PageAbout& about)
-      : page_(about.title.empty() ? report.title : about.title, report.subtitle), doubts_(about.doubts) {}
+      : Page(about.title.empty() ? report.title : about.title, report.subtitle), doubts_(about.doubts) {}
 
   void tell(const std::vector<ReportPart>& parts) {
     for (const ReportPart& part : parts) {
@@ -77,54 +84,94 @@ class PageWriter {
     }
   }
   void tell(const Sentences& sentences) {
-    if (!sentences.all.empty()) page_.summary(sentences.all);
+    if (!sentences.all.empty()) summary(sentences.all);
   }
-  void tell(const Headline& headline) { page_.summary(headline.all); }
-  void tell(const Prose& prose) {
-    for (const std::string& paragraph : prose.paragraphs) page_.paragraph(paragraph);
+  void tell(const Headline& headline) { summary(headline.all); }
+  void tell(const Prose& paragraphs) {
+    for (const std::string& text : paragraphs.paragraphs) raw("<p>" + prose(text) + "</p>\n");
   }
-  void tell(const Items& items) { page_.list(items.all); }
-  void tell(const NamedValues& values) { page_.table(table_of(values)); }
+  void tell(const Items& items) {
+    raw("<ul>");
+    for (const std::string& item : items.all) raw("<li>" + prose(item) + "</li>");
+    raw("</ul>\n");
+  }
+  void tell(const NamedValues& values) { raw(html_of(table_of(values))); }
   void tell(const Table& table) {
-    page_.table(table);
-    if (!table.legend.empty()) page_.paragraph(table.legend);
+    raw(html_of(table));
+    if (!table.legend.empty()) tell(Prose{{table.legend}});
   }
-  void tell(const Code& code) { page_.code(code.text); }
-  void tell(const KeyFigures& figures) { page_.figures_at_a_glance(figures.all); }
-  void tell(const Figure& figure) {
-    if (const Sheet sheet = figure.sheet(); !sheet.plots.empty()) page_.figure(sheet, figure.caption);
+  void tell(const Code& code) { raw("<pre><code>" + escaped(code.text) + "</code></pre>\n"); }
+  void tell(const KeyFigures& figures) {
+    raw("<div class=\"glance\">");
+    for (const KeyFigure& one : figures.all)
+      raw("<div><b>" + escaped(one.value) + "</b><span>" + escaped(one.meaning) + "</span></div>");
+    raw("</div>\n");
   }
+  void tell(const Figure& one) {
+    if (const Sheet sheet = one.sheet(); !sheet.plots.empty()) figure(sheet, one.caption);
+  }
+  /// Heat maps side by side as the width allows, each at its own size; else one below the other.
   void tell(const Drawings& drawings) {
-    if (drawings.are_heat_maps) return page_.heat_maps(drawings.svgs, drawings.caption);
-    for (const std::string& svg : drawings.svgs) page_.drawing(svg, drawings.caption);
+    const std::string caption = "</div><figcaption>" + escaped(drawings.caption) + "</figcaption></figure>\n";
+    if (drawings.are_heat_maps) {
+      raw("<figure><div class=\"maps\">");
+      for (const std::string& map : drawings.svgs) raw("<div>" + map + "</div>\n");
+      return raw(caption);
+    }
+    for (const std::string& svg : drawings.svgs) raw("<figure><div class=\"panels\">" + svg + caption);
   }
   void tell(const Fold& fold) {
-    page_.folded(
-        fold.title, [&] { tell(fold.parts()); }, fold.anchor);
+    const std::string id = fold.anchor.empty() ? "" : " id=\"" + escaped(fold.anchor) + "\"";
+    raw("<details" + id + "><summary>" + escaped(fold.title) + "</summary>\n");
+    tell(fold.parts());
+    raw("</details>\n");
   }
   void tell(const Choices& choices) {
-    std::vector<Choice> all;
-    for (const auto& [name, parts] : choices.all) all.push_back({name, [this, &parts = parts] { tell(parts()); }});
-    page_.choices(choices.what, all, choices.first);
+    raw(fmt::format("<div class=\"choices\" data-what=\"{}\">\n", escaped(choices.what)));
+    for (std::size_t i = 0; i < choices.all.size(); ++i) {
+      raw(fmt::format("<div class=\"choice\" data-name=\"{0}\"{1}><h3>{0}</h3>\n", escaped(choices.all[i].first),
+                      i == choices.first ? " data-first" : ""));
+      tell(choices.all[i].second());
+      raw("</div>\n");
+    }
+    raw("</div>\n");
   }
-  void tell(const Cards& cards) { page_.cards(cards.all); }
-  void tell(const ReplayView& replay) { page_.replay(replay.title, replay.bytes, replay.caption); }
-  void tell(const Html& html) { page_.raw(html.text); }
+  void tell(const Cards& cards) {
+    raw("<div class=\"cards\">");
+    for (const PageCard& card : cards.all)  // titles, lines and drawings are escaped already: page_card
+      raw(fmt::format("<a class=\"card\" href=\"{}\">{}<b>{}</b><span>{}</span></a>\n", escaped(card.href),
+                      card.drawing, card.title, card.line));
+    raw("</div>\n");
+  }
+  void tell(const ReplayView& view) { replay(view.title, view.bytes, view.caption); }
+  void tell(const Html& html) { raw(html.text); }
   void tell(const WarningsHere&) {
     if (doubts_.empty()) return;
-    page_.section("Warnings", "doubts");
-    page_.list(doubts_);
+    section("Warnings", "doubts");
+    tell(Items{doubts_});
   }
-  Page& page() { return page_; }
 
  private:
   void head(const ReportPart& part) {
-    if (part.heading == ReportPart::Heading::place) return page_.place(part.section, part.anchor);
-    if (part.heading == ReportPart::Heading::subsection) return page_.subsection(part.section);
-    page_.section(part.section, part.anchor);
+    if (part.heading == ReportPart::Heading::place) return place(part.section, part.anchor);
+    if (part.heading == ReportPart::Heading::subsection) return raw("<h3>" + escaped(part.section) + "</h3>\n");
+    section(part.section, part.anchor);
   }
 
-  Page page_;
+  /// Sentences in a box, each behind the name of what it is about and followed by links to what backs it.
+  void summary(const std::vector<BackedSentence>& sentences) {
+    if (!sentences.empty()) describe(sentences.front().text);
+    raw("<div class=\"summary\">");
+    for (const BackedSentence& sentence : sentences) {
+      raw("<p>" + (sentence.about.empty() ? "" : "<b>" + escaped(sentence.about) + ".</b> ") + prose(sentence.text));
+      for (const auto& [anchor, text] : sentence.evidence)
+        raw(fmt::format(" <a class=\"evidence\" href=\"#{}\">{}</a>", escaped(anchor), escaped(text)));
+      if (!sentence.detail.empty()) raw(" <small>" + prose(sentence.detail) + "</small>");
+      raw("</p>");
+    }
+    raw("</div>\n");
+  }
+
   const std::vector<std::string>& doubts_;
 };
 
@@ -267,22 +314,22 @@ std::string text_of(const Report& report) {
 }
 
 std::string page_of(const Report& report, const PageAbout& about) {
-  PageWriter writer(report, about);
-  Page& page = writer.page();
+  PageWriter page(report, about);
   if (const std::vector<std::string>& missing = page.libraries().missing; !missing.empty())
     page.raw(
         fmt::format("<p class=\"warning\" role=\"note\">Made without {}: the figures that need it are plain drawings. "
                     "Install it and make the page again.</p>\n",
                     escaped(fmt::format("{}", fmt::join(missing, ", ")))));
-  writer.tell(with_warnings(report.parts));
+  page.tell(with_warnings(report.parts));
   page.section("How to repeat this", "repeat");
-  page.code(about.command);
-  if (!report.notes.empty()) page.list(report.notes);
+  page.tell(Code{about.command});
+  if (!report.notes.empty()) page.tell(Items{report.notes});
   Table facts{"", {"part", ""}, {true, true}};
   for (const auto* list : {&report.made_of, &about.versions})
     for (const auto& [name, value] : *list) facts.add({name, value});
-  page.table(facts);
-  if (!report.resolved_case.empty()) page.folded("The resolved case", [&] { page.code(report.resolved_case); });
+  page.tell(facts);
+  if (!report.resolved_case.empty())
+    page.tell(Fold{"The resolved case", [&] { return std::vector<ReportPart>{{Code{report.resolved_case}}}; }});
   return page.html();
 }
 

@@ -8,13 +8,100 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
 
 #include "compare/fit/factorizations.hpp"
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/recorded/recorded_model.hpp"
+#include "compare/recorded/step_pair.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/mapping_reader.hpp"
+#include "scenario/mapping_writer.hpp"
 
 namespace soilbin::compare {
+namespace {
+
+Where read_where(const YamlNode& node, const Reading& reading) {
+  if (!node.is_mapping())
+    reading.refuse(node, "expected a mapping of axes", "such as {slip: [10 %, 30 %], load: 4 kN}");
+  Where where;
+  for (std::size_t k = 0; k + 1 < node.items.size(); k += 2) {
+    const FindingAxis axis = read_choice<FindingAxis>(node.items[k], reading);
+    const YamlNode& value = node.items[k + 1];
+    Measure measure = measure_of(axis);
+    measure.range = any_value;
+    if (value.is_sequence() && value.items.size() != 2) reading.refuse(value, "a range has two ends");
+    const YamlNode &first = value.is_sequence() ? value.items[0] : value,
+                   &last = value.is_sequence() ? value.items[1] : value;
+    where[axis] = {read_scalar(first, measure, reading).value, read_scalar(last, measure, reading).value};
+    if (where[axis].first > where[axis].second) reading.refuse(value, "the range runs downward");
+  }
+  return where;
+}
+
+/// In which unit a claim is written: places along the axis in its own, all else as plain SI numbers.
+Measure measure_of_claim(const Finding& finding) {
+  const bool place = finding.test == FindingTest::peak || finding.test == FindingTest::lowest ||
+                     finding.test == FindingTest::peak_shift;
+  Measure measure = place ? measure_of(finding.along) : Measure{};
+  measure.range = any_value;
+  return measure;
+}
+
+Finding read_finding(const YamlNode& node, const Reading& reading) {
+  Finding finding = read_mapping<Finding>(node, reading, {"where", "against", "step", "at_least", "at_most"});
+  if (const YamlNode* where = node.find("where")) finding.where = read_where(*where, reading);
+  if (const YamlNode* against = node.find("against")) finding.against = read_where(*against, reading);
+  const Measure claim = measure_of_claim(finding);
+  const YamlNode *least = node.find("at_least"), *most = node.find("at_most"), *step = node.find("step");
+  if (least) finding.at_least = read_scalar(*least, claim, reading).value;
+  if (most) finding.at_most = read_scalar(*most, claim, reading).value;
+  if (step) finding.step = read_scalar(*step, measure_of(finding.along), reading).value;
+  if (!least && !most) reading.refuse(node, "no claim", "at_least, at_most or both");
+  if (finding.at_least > finding.at_most) reading.refuse(node, "at_least is more than at_most");
+  if ((node.find("against") != nullptr) != finding.compares())
+    reading.refuse(node, finding.compares() ? "'against' is missing" : "this test compares with nothing");
+  if ((step != nullptr) != (finding.test == FindingTest::change))
+    reading.refuse(node, "'step' and the test 'change' belong together");
+  return finding;
+}
+
+}  // namespace
+
+const ConditionView& view_of(FindingAxis axis) { return condition_view(word_of(axis)); }
+
+Measure measure_of(FindingAxis axis) { return {std::string(view_of(axis).column_unit), view_of(axis).range}; }
+
+Findings parse_findings(const SourceText& source) {
+  const YamlNode document = parse_yaml(source);
+  const Reading reading{&source, std::nullopt, nullptr, ""};
+  expect_format(document, findings_format, reading);
+  expect_keys(document, {"format", "name", "source", "level", "seed", "findings"}, reading);
+  Findings findings;
+  const auto need = [&](const char* key, const char* meaning) -> const YamlNode& {
+    return *value_of(document, key, Need::required, meaning, reading);
+  };
+  findings.name = read_name(need("name", "what to call the publication"), reading);
+  findings.source = read_text(need("source", "the publication"), reading);
+  findings.level =
+      read_scalar(need("level", "of the intervals"), {"-", {.lower = 0.5, .upper = 1, .upper_open = true}}, reading)
+          .value;
+  findings.seed = static_cast<std::uint64_t>(read_integer(need("seed", "of the bootstrap"), 0, reading));
+  const YamlNode& list = need("findings", "a list");
+  if (!list.is_sequence()) reading.refuse(list, "expected a list of findings");
+  std::set<std::string> ids;
+  for (const YamlNode& node : list.items) {
+    findings.all.push_back(read_finding(node, reading));
+    if (!ids.insert(findings.all.back().id).second) reading.refuse(node, "two findings have this id");
+  }
+  return findings;
+}
+
+Findings read_findings(const std::filesystem::path& path) {
+  return parse_findings(read_source_text(path, largest_yaml));
+}
+
 namespace {
 
 std::vector<double> weights(const Curve& curve) {
@@ -272,6 +359,65 @@ std::vector<Answer> recorded_answers(const Record& record, const std::vector<Ope
   std::vector<Answer> answers;
   for (const OperatingCondition& at : conditions) answers.push_back(ask(model, {}, at));
   return answers;
+}
+
+namespace {
+
+/// Answers by the study's record, and remarks on it; none where there is no record.
+std::vector<Answer> recorded_grains(const std::string& study, const Case& question,
+                                    const std::vector<StudyRecord>& records, std::vector<std::string>& remarks) {
+  std::vector<Answer> answers;
+  for (const StudyRecord& one : records) {
+    if (one.study != study) continue;
+    std::string remark;
+    answers = recorded_answers(one.record, question.study.conditions, remark);
+    const std::string file = one.file.filename().string() + ": ";
+    remarks.push_back(file + remark);
+    for (const std::string& doubt : in_words(step_doubts(one.record))) remarks.push_back(file + doubt);
+  }
+  return answers;
+}
+
+}  // namespace
+
+std::set<std::string> studies_of(const Findings& findings) {
+  std::set<std::string> names;
+  for (const Finding& finding : findings.all) names.insert(finding.study);
+  return names;
+}
+
+void add_record(std::vector<StudyRecord>& records, StudyRecord record, const Findings& findings) {
+  const std::string file = record.file.string();
+  if (!studies_of(findings).contains(record.study))
+    throw InputError(fmt::format("{}: no finding speaks of its study '{}'", file, record.study));
+  for (const StudyRecord& other : records)
+    if (other.study == record.study)
+      throw InputError(fmt::format("{} and {} answer the same study '{}'\n  hint: one record a study",
+                                   other.file.string(), file, record.study));
+  records.push_back(std::move(record));
+}
+
+AnsweredStudies answer_studies(const Findings& findings, const std::vector<StudyRecord>& records,
+                               const std::function<Case(const std::string& study)>& find_case,
+                               const std::function<Progress()>& progress) {
+  AnsweredStudies answered;
+  for (const std::string& name : studies_of(findings)) {
+    Case question = find_case(name);
+    std::erase_if(question.study.models, [](const ModelChoice& c) { return c.model == ModelKind::dem; });
+    std::vector<ModelAnswers> study = run_study(question, progress());
+    for (const ModelAnswers& model : study)
+      answered.answers.push_back({name, model.choice.label, taken_as_exact(model.answers)});
+    std::vector<Answer> grains = recorded_grains(name, question, records, answered.remarks);
+    if (!grains.empty()) {
+      question.study.models.push_back({ModelKind::dem, {}, "dem"});
+      study.push_back({question.study.models.back(), grains});
+    }
+    answered.doubts.add(question.study.name, question, study);
+    if (grains.empty())
+      for (const OperatingCondition& at : question.study.conditions) grains.push_back({at, std::nullopt, "not run"});
+    answered.answers.push_back({name, "dem", std::move(grains)});
+  }
+  return answered;
 }
 
 }  // namespace soilbin::compare

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "compare/report/number_text.hpp"
-#include "compare/sweep/model_names.hpp"
+#include "compare/sweep/answers.hpp"
 #include "scenario/estimate.hpp"
 #include "scenario/unit.hpp"
 
@@ -61,12 +61,6 @@ Series series_of(const std::vector<Answer>& answers, const ConditionView& abscis
   }
   if (std::ranges::none_of(series.error, [](double error) { return error > 0.0; })) series.error.clear();
   return series;
-}
-
-std::vector<OperatingCondition> conditions_of(const Prediction& prediction) {
-  std::vector<OperatingCondition> all;
-  for (const PredictedRun& run : prediction.runs) all.push_back(run.measured.at);
-  return all;
 }
 
 /// Whether two runs belong to one setpoint: the same label or, without labels, nearly the same slip.
@@ -139,11 +133,8 @@ Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, 
   const bool all_bands = curves.labels.size() * study.size() <= most_bands;
   const bool first_bands = curves.labels.size() <= most_bands;
   std::vector<Curves> own;  // of each model, which may have been asked at slips of its own
-  for (const ModelAnswers& model : study) {
-    std::vector<OperatingCondition> conditions;
-    for (const Answer& answer : model.answers) conditions.push_back(answer.at);
-    own.push_back(curves_against(abscissa, conditions, Spread::exact));
-  }
+  for (const ModelAnswers& model : study)
+    own.push_back(curves_against(abscissa, conditions_of(model.answers), Spread::exact));
   sheet.note = in_words(question.scenario.tire) + " on " + in_words(question.scenario.soil) + "; ";
   if (all_bands)
     sheet.note += "bands and bars: one standard error";
@@ -204,13 +195,10 @@ Sheet budget_sheet(const std::string& title, const std::vector<LabelledAnswers>&
         if (there) plot.series.push_back(std::move(area));
       }
     }
-    Series sum;
-    sum.label = "drawbar pull", sum.color = sum_color;
-    for (const Answer& answer : curve.answers) {
-      sum.x.push_back(100 * answer.at.slip);
-      sum.y.push_back(answer.result ? answer.result->drawbar_pull.value : not_a_number);
-    }
-    plot.series.push_back(std::move(sum));
+    plot.series.push_back(over_samples(
+        {.label = "drawbar pull", .color = sum_color}, curve.answers,
+        [](const Answer& answer) { return 100 * answer.at.slip; },
+        [](const Answer& answer) { return answer.result ? answer.result->drawbar_pull.value : not_a_number; }));
     sheet.plots.push_back(std::move(plot));
   }
   return sheet;
@@ -229,60 +217,64 @@ Sheet patch_sheet(const std::string& title, const std::vector<LabelledPatch>& pa
   return sheet;
 }
 
-Sheet campaign_sheet(const Campaign& campaign, const Prediction& prediction) {
+namespace {
+
+/// A panel for each measured channel: `plot_of` begins it, `add` gives it a curve's runs.
+template <class PlotOf, class Add>
+Sheet sheet_of_channels(std::string title, const Prediction& prediction, const PlotOf& plot_of, const Add& add) {
   const Curves curves = curves_against_slip(conditions_of(prediction), Spread::measured);
-  Sheet sheet{campaign.name + ": measured (points), predicted without fitting (lines)", {}, Palette::ordered};
-  if (curves.labels.size() == 1) sheet.palette = Palette::named;
+  Sheet sheet{std::move(title), {}, curves.labels.size() == 1 ? Palette::named : Palette::ordered};
   for (const ChannelError& error : prediction.errors) {
     const ChannelView& channel = channel_views[error.channel];
-    Plot plot = empty_plot({std::string(channel.title), std::string(channel.unit), channel.per_si, {}});
+    Plot& plot = sheet.plots.emplace_back(plot_of(channel));
     for (std::size_t curve = 0; curve < curves.labels.size(); ++curve) {
-      std::vector<const PredictedRun*> members;
-      Series points;
-      for (std::size_t i = 0; i < prediction.runs.size(); ++i) {
-        if (curves.curve_of[i] != curve) continue;
-        members.push_back(&prediction.runs[i]);
-        const auto& value = prediction.runs[i].measured.*channel.measured;
-        points.x.push_back(100 * prediction.runs[i].measured.at.slip);
-        points.y.push_back(value ? *value * channel.per_si : not_a_number);
-      }
-      Series line = predicted_line(members, channel);
-      points.mark = Mark::points;
-      points.color = line.color = static_cast<int>(curve);
-      points.label = line.label = curves.labels[curve].empty() ? "all runs" : curves.labels[curve];
-      plot.series.push_back(std::move(line));
-      plot.series.push_back(std::move(points));
+      std::vector<const PredictedRun*> runs;
+      for (std::size_t i = 0; i < prediction.runs.size(); ++i)
+        if (curves.curve_of[i] == curve) runs.push_back(&prediction.runs[i]);
+      add(plot, channel, Series{.label = curves.labels[curve], .color = static_cast<int>(curve)}, runs);
     }
-    sheet.plots.push_back(std::move(plot));
   }
   return sheet;
 }
 
+}  // namespace
+
+Sheet campaign_sheet(const Campaign& campaign, const Prediction& prediction) {
+  return sheet_of_channels(
+      campaign.name + ": measured (points), predicted without fitting (lines)", prediction,
+      [](const ChannelView& channel) {
+        return empty_plot({std::string(channel.title), std::string(channel.unit), channel.per_si, {}});
+      },
+      [](Plot& plot, const ChannelView& channel, Series points, const std::vector<const PredictedRun*>& runs) {
+        Series line = predicted_line(runs, channel);
+        if (points.label.empty()) points.label = "all runs";
+        line.color = points.color, line.label = points.label;
+        points.mark = Mark::points;
+        plot.series.push_back(std::move(line));
+        plot.series.push_back(over_samples(
+            std::move(points), runs, [](const PredictedRun* run) { return 100 * run->measured.at.slip; },
+            [&](const PredictedRun* run) {
+              const auto& value = run->measured.*channel.measured;
+              return value ? *value * channel.per_si : not_a_number;
+            }));
+      });
+}
+
 Sheet scatter_sheet(const Campaign& campaign, const Prediction& prediction) {
-  const Curves curves = curves_against_slip(conditions_of(prediction), Spread::measured);
-  Sheet sheet{campaign.name + ": predicted against measured", {}, Palette::ordered};
-  if (curves.labels.size() == 1) sheet.palette = Palette::named;
-  for (const ChannelError& error : prediction.errors) {
-    const ChannelView& channel = channel_views[error.channel];
-    const std::string unit = " [" + std::string(channel.unit) + "]";
-    Plot plot{capital(std::string(channel.title)) + unit, {"measured"}, {"predicted"}, {}, true};
-    for (std::size_t curve = 0; curve < curves.labels.size(); ++curve) {
-      Series points;
-      points.mark = Mark::points;
-      points.label = curves.labels[curve];
-      points.color = static_cast<int>(curve);
-      for (std::size_t i = 0; i < prediction.runs.size(); ++i) {
-        const PredictedRun& run = prediction.runs[i];
-        const auto& measured = run.measured.*channel.measured;
-        if (curves.curve_of[i] != curve || !measured || !run.predicted.result) continue;
-        points.x.push_back(*measured * channel.per_si);
-        points.y.push_back(((*run.predicted.result).*channel.predicted).value * channel.per_si);
-      }
-      plot.series.push_back(std::move(points));
-    }
-    sheet.plots.push_back(std::move(plot));
-  }
-  return sheet;
+  return sheet_of_channels(
+      campaign.name + ": predicted against measured", prediction,
+      [](const ChannelView& channel) {
+        return Plot{heading(channel), {"measured"}, {"predicted"}, {}, true};
+      },
+      [](Plot& plot, const ChannelView& channel, Series points, const std::vector<const PredictedRun*>& runs) {
+        points.mark = Mark::points;
+        for (const PredictedRun* run : runs)
+          if (const auto& measured = run->measured.*channel.measured; measured && run->predicted.result) {
+            points.x.push_back(*measured * channel.per_si);
+            points.y.push_back(((*run->predicted.result).*channel.predicted).value * channel.per_si);
+          }
+        plot.series.push_back(std::move(points));
+      });
 }
 
 }  // namespace soilbin::compare

@@ -1,4 +1,5 @@
-// Why the semi-empirical answer is what it is: its equations with the values put in, and closed forms to check it by.
+// Why the semi-empirical answer is what it is: its equations with the values put in, closed forms to check it by, and
+// where the numbers come from.
 #pragma once
 
 #include <string>
@@ -7,6 +8,7 @@
 #include "compare/report/json_fields.hpp"
 #include "compare/report/table.hpp"
 #include "compare/sweep/answers.hpp"
+#include "scenario/scenario.hpp"
 
 namespace soilbin::compare {
 
@@ -45,5 +47,28 @@ Json rows_json(const std::vector<Explained>& explained);
 
 /// The parts of the drawbar pull, their sum and the pull [N].
 Table forces_table(const TractionResult& result);
+
+// Where the numbers of a question come from: each value of its wheel and of its soil with its source.
+
+struct SourcedValue {
+  std::string of;           ///< "tire" or "soil"
+  std::string key;          ///< as files name it: "lugs.height"
+  std::string name;         ///< for people: "lug height"
+  std::string unit;         ///< as files write it; "-" for a plain number
+  double per_si;            ///< units per SI unit
+  Estimate value;           ///< [SI]
+  bool assumed_sd = false;  ///< its standard deviation is a share that the soil's file assumes
+  std::string source;       ///< its own, else that of the whole; "not stated" where neither is
+};
+
+/// The declared values of the wheel, then those of the soil for the analytic model.
+std::vector<SourcedValue> sourced_values(const Scenario& scenario);
+
+/// "1.04 ± 0.10 kPa (± assumed)".
+std::string in_words(const SourcedValue& value);
+
+/// "sources" of soilbin-explain/1, in SI; and the same for people.
+Json sources_json(const Scenario& scenario);
+Table sources_table(const Scenario& scenario);
 
 }  // namespace soilbin::compare

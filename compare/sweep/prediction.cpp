@@ -40,6 +40,12 @@ std::optional<double> residual(const PredictedRun& run, const ChannelView& chann
   return predicted - *measured;
 }
 
+std::vector<OperatingCondition> conditions_of(const Prediction& prediction) {
+  std::vector<OperatingCondition> all;
+  for (const PredictedRun& run : prediction.runs) all.push_back(run.measured.at);
+  return all;
+}
+
 Prediction predict(const Model& model, const Scenario& scenario, const Campaign& campaign, const Progress& progress) {
   Prediction prediction;
   prediction.model = value_named<ModelKind>(model.name()).value_or(ModelKind::bekker_wong);

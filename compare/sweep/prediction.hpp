@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "compare/measured/campaign.hpp"
-#include "compare/measured/channels.hpp"
 #include "compare/sweep/answers.hpp"
 
 namespace soilbin::compare {
@@ -40,6 +39,8 @@ struct Prediction {
 /// Predicts every run of a campaign at its own load, slip, angles, ... with the scenario's soil and effects.
 Prediction predict(const Model& model, const Scenario& scenario, const Campaign& campaign,
                    const Progress& progress = {});
+
+std::vector<OperatingCondition> conditions_of(const Prediction& prediction);
 
 /// Predicted less measured, or no value where either is absent [SI].
 std::optional<double> residual(const PredictedRun& run, const ChannelView& channel);

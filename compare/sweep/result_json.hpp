@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/prediction.hpp"

@@ -1,7 +1,5 @@
 #include "compare/sweep/wheel_limits.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>

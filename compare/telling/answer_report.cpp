@@ -10,25 +10,19 @@
 #include <numeric>
 
 #include "compare/doubts/doubts.hpp"
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/table.hpp"
 #include "compare/sweep/answer_sheets.hpp"
-#include "compare/sweep/model_names.hpp"
+#include "compare/sweep/answers.hpp"
+#include "compare/sweep/explanation.hpp"
 #include "compare/sweep/result_json.hpp"
-#include "compare/sweep/sources.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-std::vector<OperatingCondition> conditions_answered(const std::vector<Answer>& answers) {
-  std::vector<OperatingCondition> all;
-  for (const Answer& answer : answers) all.push_back(answer.at);
-  return all;
-}
 
 bool any_side_force(const std::vector<ModelAnswers>& study) {
   for (const ModelAnswers& model : study)
@@ -209,7 +203,7 @@ std::vector<ReportPart> study_parts(const std::vector<ModelAnswers>& study) {
   const bool side = any_side_force(study);
   std::vector<ReportPart> parts;
   for (const ModelAnswers& model : study) {
-    const Curves curves = curves_against_slip(conditions_answered(model.answers), Spread::exact);
+    const Curves curves = curves_against_slip(conditions_of(model.answers), Spread::exact);
     std::vector<std::string> header;
     if (!curves.varying.empty()) header.push_back(curves.varying);
     header.push_back("slip [%]");

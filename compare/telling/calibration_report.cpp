@@ -60,12 +60,10 @@ Json by_channel(const OfChannels<std::optional<Estimate>>& values) {
 }
 
 Json json_of(const Trial& trial) {
-  Json answers = Json::array();
-  for (const Answer& answer : trial.answers) answers.push_back(to_json(answer));
-  return {{"error", trial.error ? estimate_json(*trial.error) : Json(nullptr)},
+  return {{"error", or_null(trial.error)},
           {"errors", by_channel(trial.errors)},
           {"apart", trial.apart},
-          {"answers", answers}};
+          {"answers", list_of(trial.answers, [](const Answer& answer) { return to_json(answer); })}};
 }
 
 }  // namespace
@@ -111,11 +109,10 @@ std::vector<std::string> decision_cells(const Decision& decision, std::size_t ca
 }
 
 nlohmann::ordered_json to_json(const Decision& decision) {
-  Json setpoints = Json::array(), trials = Json::array();
-  for (const Setpoint& setpoint : decision.setpoints)
-    setpoints.push_back(
-        {{"at", to_json(setpoint.at)}, {"runs", setpoint.runs}, {"measured", by_channel(setpoint.measured)}});
-  for (const Trial& trial : decision.trials) trials.push_back(json_of(trial));
+  const Json setpoints = list_of(decision.setpoints, [](const Setpoint& one) {
+    return Json{{"at", to_json(one.at)}, {"runs", one.runs}, {"measured", by_channel(one.measured)}};
+  });
+  const Json trials = list_of(decision.trials, [](const Trial& trial) { return json_of(trial); });
   return {{"campaign", decision.campaign},     {"decided", decision.decided()}, {"nearest", decision.nearest},
           {"chosen", decision.chosen},         {"tied", decision.tied()},       {"runs", decision.runs},
           {"not_steady", decision.not_steady}, {"setpoints", setpoints},        {"trials", trials}};
@@ -123,10 +120,8 @@ nlohmann::ordered_json to_json(const Decision& decision) {
 
 namespace {
 
-std::string with_unit(const std::string& text, const std::string& unit) { return text + unit_behind(unit); }
-
 std::string value_with_unit(const Estimate& value, const std::string& unit) {
-  return with_unit(number(value, per_unit(unit)), unit);
+  return number(value, per_unit(unit)) + unit_behind(unit);
 }
 
 std::string misses(const VirtualTest& test, const Candidate& candidate) {

@@ -1,5 +1,3 @@
-#include "compare/telling/comparison_words.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,11 +7,12 @@
 #include <optional>
 #include <set>
 
-#include "compare/discrepancy/causes.hpp"
+#include "compare/discrepancy/comparison.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/sweep/model_names.hpp"
+#include "compare/sweep/answers.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/comparison_report.hpp"
 #include "compare/telling/loop_report.hpp"
 #include "scenario/estimate.hpp"
 
@@ -89,16 +88,9 @@ std::string left_in_words(double errors) {
   return fmt::format("what is left is {:.2g} times its standard errors (root mean square)", errors);
 }
 
-std::string rest_called(JointVerdict verdict) {
-  switch (verdict) {
-    case JointVerdict::significant:
-      return "significant";
-    case JointVerdict::noise:
-      return "noise";
-    case JointVerdict::undecided:
-      return "not decided (too few re-runs)";
-  }
-  return "";
+const char* rest_called(JointVerdict verdict) {
+  constexpr std::array words = {"significant", "noise", "not decided (too few re-runs)"};
+  return words[static_cast<std::size_t>(verdict)];
 }
 
 Clause joint_clause(const Comparison& comparison, const JointTest& test) {

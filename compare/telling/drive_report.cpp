@@ -11,7 +11,7 @@
 #include "compare/drives/drive_sides.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/sweep/model_names.hpp"
+#include "compare/sweep/answers.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/drive_columns.hpp"
@@ -76,27 +76,11 @@ std::string samples_csv(const DriveColumns<Sample>& columns, const std::vector<S
   return text;
 }
 
-/// So many of the samples, evenly, the first and the last among them.
-template <class Sample>
-std::vector<Sample> picked_samples(const std::vector<Sample>& samples, std::size_t rows) {
-  std::vector<Sample> some;
-  rows = std::min(rows, samples.size());
-  for (std::size_t row = 0; row < rows; ++row)
-    some.push_back(samples[rows == 1 ? 0 : row * (samples.size() - 1) / (rows - 1)]);
-  return some;
-}
-
-/// In percent; "-" for a wheel that stands.
-std::string slip_text(const DriveState& s) { return s.slip ? number(100 * *s.slip) : "-"; }
-
 Json happenings_json(const std::vector<DriveHappening>& happenings) {
-  Json rows = Json::array();
-  for (const DriveHappening& h : happenings)
-    rows.push_back({{"time", h.time}, {"travelled", h.travelled}, {"what", std::string(word_of(h.what))}});
-  return rows;
+  return list_of(happenings, [](const DriveHappening& h) {
+    return Json{{"time", h.time}, {"travelled", h.travelled}, {"what", std::string(word_of(h.what))}};
+  });
 }
-
-constexpr std::size_t shown_samples = 12;  // on a terminal
 
 double slip_of(const DriveSample& s) { return s.slip.value_or(not_a_number); }
 
@@ -117,21 +101,10 @@ std::string words_on_steepest(const AnalyticDrive& part) {
 
 /// "the wheel is stuck"
 std::string end_in_words(DriveEnd end) {
-  switch (end) {
-    case DriveEnd::time_is_up:
-      return "time is up";
-    case DriveEnd::arrived:
-      return "the wheel arrives";
-    case DriveEnd::rolled_back:
-      return "the wheel has rolled back";
-    case DriveEnd::bed_ends:
-      return "the bed ends";
-    case DriveEnd::stuck:
-    case DriveEnd::buried:
-    case DriveEnd::tips_over:
-      break;
-  }
-  return fmt::format("the wheel is {}", word_of(end));
+  if (end == DriveEnd::time_is_up) return "time is up";
+  if (end == DriveEnd::arrived) return "the wheel arrives";
+  if (end == DriveEnd::rolled_back) return "the wheel has rolled back";
+  return end == DriveEnd::bed_ends ? "the bed ends" : fmt::format("the wheel is {}", word_of(end));
 }
 
 /// "50.49 ± 0.80", or the value alone where it has no error.
@@ -244,7 +217,6 @@ Table happenings_table(const std::vector<DriveHappening>& happenings) {
   return table;
 }
 
-/// A row for each uncertain value: what a standard deviation of it does to the drive.
 Table errors_table(const DriveErrors& errors) {
   Table table{"What a standard deviation of each value does",
               {"", "as declared", "a standard deviation lower", "higher"},
@@ -291,7 +263,8 @@ Table samples_table(const bekker_wong::DriveRecord& record) {
                "torque [N m]", "soil force [N]"}};
   for (const DriveSample& s : picked_samples(record.samples, shown_samples))
     table.add({number(s.time), number(s.travelled), number(s.longitudinal_incline / degree), number(100 * s.speed),
-               number(100 * s.rim_speed), slip_text(s), number(1000 * s.sinkage), number(s.torque), number(s.forward)});
+               number(100 * s.rim_speed), slip_text(s.slip), number(1000 * s.sinkage), number(s.torque),
+               number(s.forward)});
   return table;
 }
 
@@ -308,14 +281,9 @@ Plot plot_of(const AnalyticDrive& part, const std::string& title, const std::vec
   panel.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(panel.front())));
   Plot plot{title, {"time [s]"}};
   for (const Line& line : lines) {
-    Series series;
-    series.label = line.label.empty() ? "" : panel + ": " + line.label;
+    Series series{.label = line.label.empty() ? "" : panel + ": " + line.label};
     if (!line.label.empty()) series.color = named % available, series.dash = named / available, ++named;
-    for (const DriveSample& sample : part.record.samples) {
-      series.x.push_back(sample.time);
-      series.y.push_back(line.get(sample));
-    }
-    plot.series.push_back(std::move(series));
+    plot.series.push_back(over_samples(std::move(series), part.record.samples, &DriveSample::time, line.get));
   }
   return plot;
 }
@@ -362,26 +330,24 @@ const DriveColumns<DriveSample>& sample_columns() {
 
 Json moved_side_json(const MovedDrive& drive, const MovedDrive::Side& side) {
   if (!drive.was_moved(side)) return nullptr;
-  Json json = {{"value", side.value}};
-  json["end"] = side.record ? Json(std::string(word_of(side.record->end))) : Json(nullptr);
-  json["end_time"] = side.record ? Json(side.record->end_time) : Json(nullptr);
-  json["travelled"] = side.record ? Json(side.record->samples.back().travelled) : Json(nullptr);
-  return json;
+  if (!side.record) return {{"value", side.value}, {"end", nullptr}, {"end_time", nullptr}, {"travelled", nullptr}};
+  return {{"value", side.value},
+          {"end", std::string(word_of(side.record->end))},
+          {"end_time", side.record->end_time},
+          {"travelled", side.record->samples.back().travelled}};
 }
 
 Json errors_json(const DriveErrors& errors) {
-  Json rows = Json::array();
-  for (const MovedDrive& drive : errors.moved)
-    rows.push_back({{"soil", drive.soil},
-                    {"parameter", drive.parameter},
-                    {"value", drive.of.value},
-                    {"std_error", drive.of.std_error},
-                    {"lower", moved_side_json(drive, drive.lower)},
-                    {"higher", moved_side_json(drive, drive.higher)}});
-  return rows;
+  return list_of(errors.moved, [](const MovedDrive& drive) {
+    return Json{{"soil", drive.soil},
+                {"parameter", drive.parameter},
+                {"value", drive.of.value},
+                {"std_error", drive.of.std_error},
+                {"lower", moved_side_json(drive, drive.lower)},
+                {"higher", moved_side_json(drive, drive.higher)}};
+  });
 }
 
-/// soilbin-drive/1
 Json drive_json(const AnalyticDrive& part) {
   const bekker_wong::DriveRecord& record = part.record;
   const DriveSample& end = record.samples.back();
@@ -514,28 +480,25 @@ struct Panel {
 /// The mean of grains over the time that it is a mean of, with its error.
 Series steady_line(const dem::SteadyDrive& steady, const Panel& panel, int color) {
   const Estimate mean = steady.*panel.steady;
-  Series line;
-  line.label = "grains, steady";
-  line.x = {steady.from, steady.to};
-  line.y.assign(2, panel.per_si * mean.value);
-  line.error.assign(2, panel.per_si * mean.std_error);
-  line.color = color, line.dash = 1;
-  return line;
+  const double value = panel.per_si * mean.value, error = panel.per_si * mean.std_error;
+  return {.label = "grains, steady",
+          .x = {steady.from, steady.to},
+          .y = {value, value},
+          .error = {error, error},
+          .color = color,
+          .dash = 1};
 }
 
 Plot plot_of(const DriveSides& drive, const Panel& panel) {
   Plot plot{panel.title, {"time [s]"}};
   for (std::size_t i = 0; i < drive.sides.size(); ++i) {
     const DriveSide& side = drive.sides[i];
-    Series series;
-    series.label = side.packing ? "grains" : model_in_words(side.label);  // packings are of one colour
-    series.color =
-        side.packing ? static_cast<int>(drive.sides.front().kind == SideKind::analytic) : static_cast<int>(i);
-    for (const DriveSideSample& sample : side.samples) {
-      series.x.push_back(sample.time);
-      series.y.push_back(panel.per_si * panel.get(sample));
-    }
-    plot.series.push_back(std::move(series));
+    const bool behind_the_wheel = drive.sides.front().kind == SideKind::analytic;
+    plot.series.push_back(
+        over_samples({.label = side.packing ? "grains" : model_in_words(side.label),  // packings are of one colour
+                      .color = side.packing ? static_cast<int>(behind_the_wheel) : static_cast<int>(i)},
+                     side.samples, &DriveSideSample::time,
+                     [&](const DriveSideSample& sample) { return panel.per_si * panel.get(sample); }));
   }
   if (const auto steady = steady_of_grains(drive); panel.steady && steady) {
     constexpr int after_sides = 2;
@@ -580,9 +543,7 @@ Json drive_side_json(const DriveSide& side) {
 }
 
 Json over_packings_json(const DriveOverPackings& one) {
-  Json ends = Json::array();
-  for (const DriveEnd end : one.ends) ends.push_back(std::string(word_of(end)));
-  return {{"ends", std::move(ends)},
+  return {{"ends", list_of(one.ends, [](DriveEnd end) { return std::string(word_of(end)); })},
           {"end_time", estimate_json(one.end_time)},
           {"travelled", estimate_json(one.travelled)},
           {"steady", one.steady ? steady_json(*one.steady) : Json(nullptr)}};
@@ -637,7 +598,7 @@ Table samples_table(const DriveSides& drive) {
     table.add({capital(model_in_words(side.label))});
     for (const DriveSideSample& s : picked_samples(side.samples, rows_of_each))
       table.add({number(s.time), number(s.travelled), number(s.longitudinal_incline / degree), number(100 * s.speed),
-                 slip_text(s), number(1000 * s.sinkage), number(s.torque), number(s.forward)});
+                 slip_text(s.slip), number(1000 * s.sinkage), number(s.torque), number(s.forward)});
   }
   return table;
 }
@@ -659,23 +620,21 @@ Sheet drive_sheet(const DriveSides& drive) {
   return sheet;
 }
 
-/// soilbin-drive-sides/1
 Json drive_json(const DriveSides& drive) {
   Json document = {{"format", "soilbin-drive-sides/1"},
                    {"case", drive.question.name},
                    {"tire", drive.question.scenario.tire.name},
                    {"soil", drive.question.scenario.soil.name}};
-  document["sides"] = Json::array();
-  for (const DriveSide& side : drive.sides) document["sides"].push_back(drive_side_json(side));
+  document["sides"] = list_of(drive.sides, drive_side_json);
   if (drive.over_packings) document["over_packings"] = over_packings_json(*drive.over_packings);
-  document["differences"] = Json::array();
-  for (const DriveDifference& row : drive.differences)
-    document["differences"].push_back({{"of", row.name},
-                                       {"analytic", estimate_json(row.analytic)},
-                                       {"grains", estimate_json(row.grains)},
-                                       {"difference", row.difference},
-                                       {"std_error", row.std_error},
-                                       {"finding", std::string(word(row.finding))}});
+  document["differences"] = list_of(drive.differences, [](const DriveDifference& row) {
+    return Json{{"of", row.name},
+                {"analytic", estimate_json(row.analytic)},
+                {"grains", estimate_json(row.grains)},
+                {"difference", row.difference},
+                {"std_error", row.std_error},
+                {"finding", std::string(word(row.finding))}};
+  });
   document["notes"] = drive.notes;
   return document;
 }

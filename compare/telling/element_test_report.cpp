@@ -64,17 +64,15 @@ std::vector<double> column(const std::vector<Sample>& curve, const Of& of) {
   return out;
 }
 
-/// A member times a factor, for `column`.
 template <class Sample>
 auto times(double Sample::*member, double factor) {
   return [=](const Sample& sample) { return sample.*member * factor; };
 }
 
-void add_line(Plot& plot, std::string label, std::vector<double> x, std::vector<double> y) {
-  Series series;
-  series.label = std::move(label), series.x = std::move(x), series.y = std::move(y);
-  series.color = static_cast<int>(plot.series.size());
-  plot.series.push_back(std::move(series));
+template <class Curve, class X, class Y>
+void add_line(Plot& plot, std::string label, const Curve& curve, const X& x, const Y& y) {
+  plot.series.push_back(
+      over_samples({.label = std::move(label), .color = static_cast<int>(plot.series.size())}, curve, x, y));
 }
 
 /// Of a test; `table` is empty where it has one run, which the sentences tell.
@@ -93,12 +91,6 @@ Report report_of(const char* test, const std::string& soil, Table table, std::ve
   return report;
 }
 
-Plot panel(const char* title, const char* x) {
-  Plot plot;
-  plot.title = title, plot.x.title = x;
-  return plot;
-}
-
 }  // namespace
 
 Report report_on(const dem::DirectShearResult& result, const std::string& soil) {
@@ -108,35 +100,33 @@ Report report_on(const dem::DirectShearResult& result, const std::string& soil) 
       {"stress [kPa]", "packing", "void ratio", "peak [deg]", "at [mm]", "residual [deg]", "held to [%]", "imbalance"}};
   std::vector<std::string> sentences{line_text("peak", result.peak), line_text("residual", result.residual)};
   Json runs = Json::array();
-  Plot shear = panel("Shear stress over normal stress [-]", "displacement [mm]");
-  Plot lift = panel("Rise of the lid [mm]", "displacement [mm]");
+  Plot shear{"Shear stress over normal stress [-]", {"displacement [mm]"}};
+  Plot lift{"Rise of the lid [mm]", {"displacement [mm]"}};
   for (const dem::DirectShearRun& run : result.runs) {
     table.add({number(run.stress / 1e3), std::to_string(run.packing), number(run.void_ratio),
                degrees(angle_of_tangent(run.peak)), number(run.peak_at * 1e3), degrees(angle_of_tangent(run.residual)),
                number(run.normal.error * 100), fmt::format("{:.1e}", run.imbalance)});
     sentences.push_back(held_text("normal stress", run.stress, run.packing, run.normal.error));
-    const auto way = column(run.curve, &Sample::displacement);
-    Json one{{"stress", run.stress},
-             {"packing", run.packing},
-             {"void_ratio", run.void_ratio},
-             {"speed", run.speed},
-             {"peak_ratio", estimate_json(run.peak)},
-             {"peak_at", run.peak_at},
-             {"residual_ratio", estimate_json(run.residual)},
-             {"normal_stress_held", json_of(run.normal)},
-             {"imbalance", run.imbalance},
-             {"work", run.work},
-             {"work_of_stress", run.work_of_stress},
-             {"energy_error", run.energy_error},
-             {"displacement", way},
-             {"shear_stress", column(run.curve, &Sample::shear_stress)},
-             {"normal_stress", column(run.curve, &Sample::normal_stress)},
-             {"dilation", column(run.curve, &Sample::dilation)}};
-    runs.push_back(std::move(one));
-    const auto mm = column(run.curve, times(&Sample::displacement, 1e3));
+    runs.push_back({{"stress", run.stress},
+                    {"packing", run.packing},
+                    {"void_ratio", run.void_ratio},
+                    {"speed", run.speed},
+                    {"peak_ratio", estimate_json(run.peak)},
+                    {"peak_at", run.peak_at},
+                    {"residual_ratio", estimate_json(run.residual)},
+                    {"normal_stress_held", json_of(run.normal)},
+                    {"imbalance", run.imbalance},
+                    {"work", run.work},
+                    {"work_of_stress", run.work_of_stress},
+                    {"energy_error", run.energy_error},
+                    {"displacement", column(run.curve, &Sample::displacement)},
+                    {"shear_stress", column(run.curve, &Sample::shear_stress)},
+                    {"normal_stress", column(run.curve, &Sample::normal_stress)},
+                    {"dilation", column(run.curve, &Sample::dilation)}});
+    const auto mm = times(&Sample::displacement, 1e3);
     const std::string label = fmt::format("{} kPa, specimen {}", number(run.stress / 1e3), run.packing);
-    add_line(shear, label, mm, column(run.curve, [](const Sample& s) { return s.shear_stress / s.normal_stress; }));
-    add_line(lift, label, mm, column(run.curve, times(&Sample::dilation, 1e3)));
+    add_line(shear, label, run.curve, mm, [](const Sample& s) { return s.shear_stress / s.normal_stress; });
+    add_line(lift, label, run.curve, mm, times(&Sample::dilation, 1e3));
   }
   return report_of("direct-shear", soil, std::move(table), std::move(sentences),
                    {{"mean_diameter", result.mean_diameter},
@@ -153,8 +143,8 @@ Report report_on(const dem::TriaxialResult& result, const std::string& soil) {
                "residual [deg]", "held to [%]"}};
   std::vector<std::string> sentences{line_text("peak", result.peak), line_text("residual", result.residual)};
   Json runs = Json::array();
-  Plot stress = panel("(s1 - s3)/(s1 + s3) [-]", "axial strain [%]");
-  Plot volume = panel("Volumetric strain, contraction positive [%]", "axial strain [%]");
+  Plot stress{"(s1 - s3)/(s1 + s3) [-]", {"axial strain [%]"}};
+  Plot volume{"Volumetric strain, contraction positive [%]", {"axial strain [%]"}};
   for (const dem::TriaxialRun& run : result.runs) {
     table.add({number(run.stress / 1e3), std::to_string(run.packing), number(run.void_ratio),
                degrees(angle_of_sine(run.peak)), number(run.peak_at * 100), number(run.dilation_angle / degree),
@@ -178,14 +168,13 @@ Report report_on(const dem::TriaxialResult& result, const std::string& soil) {
                     {"axial", column(run.curve, &Sample::axial)},
                     {"lateral_x", column(run.curve, &Sample::lateral_x)},
                     {"lateral_y", column(run.curve, &Sample::lateral_y)}});
-    const auto percent = column(run.curve, times(&Sample::strain, 100));
+    const auto percent = times(&Sample::strain, 100);
     const std::string label = fmt::format("{} kPa, specimen {}", number(run.stress / 1e3), run.packing);
-    const auto sine = column(run.curve, [](const Sample& s) {
+    add_line(stress, label, run.curve, percent, [](const Sample& s) {
       const double lateral = (s.lateral_x + s.lateral_y) / 2;
       return (s.axial - lateral) / (s.axial + lateral);
     });
-    add_line(stress, label, percent, sine);
-    add_line(volume, label, percent, column(run.curve, times(&Sample::volumetric, 100)));
+    add_line(volume, label, run.curve, percent, times(&Sample::volumetric, 100));
   }
   return report_of("triaxial", soil, std::move(table), std::move(sentences),
                    {{"mean_diameter", result.mean_diameter},
@@ -255,7 +244,7 @@ Report report_on(const std::vector<dem::TiltingBoardResult>& boards, const std::
   using Sample = dem::TiltSample;
   const Board& first = boards.front();
   Table table{"", {"packing", "grains", "begins to slide at [deg]", "slid by a grain at [deg]"}};
-  Plot plot = panel("Mean slide [mm]", "tilt [deg]");
+  Plot plot{"Mean slide [mm]", {"tilt [deg]"}};
   std::vector<Estimate> onsets, gones;
   std::size_t slid = 0;
   Json runs = Json::array();
@@ -266,9 +255,9 @@ Report report_on(const std::vector<dem::TiltingBoardResult>& boards, const std::
     table.add({std::to_string(board.packing), std::to_string(board.grains), board.slid ? at : "held up to " + at,
                board.slid ? number(board.gone / degree) : "-"});
     runs.push_back({{"packing", board.packing}, {"slid", board.slid}, {"onset", board.onset}, {"gone", board.gone}});
-    add_line(plot, label_of("", board.packing, boards.size() > 1),
-             column(board.curve, [](const Sample& s) { return s.angle / degree; }),
-             column(board.curve, times(&Sample::slide, 1e3)));
+    add_line(
+        plot, label_of("", board.packing, boards.size() > 1), board.curve,
+        [](const Sample& s) { return s.angle / degree; }, times(&Sample::slide, 1e3));
   }
   const Estimate onset = mean_of_repeats(onsets), gone = mean_of_repeats(gones);
   std::string told = fmt::format("{} grains begin to slide at {} deg; slid by a grain at {} deg{}", first.grains,
@@ -299,7 +288,7 @@ Report report_on(const std::vector<dem::AngleOfReposeResult>& heaps, const std::
   const Heap& first = heaps.front();
   const auto in_grains = [](const Heap& heap) { return heap.height / heap.mean_diameter; };
   Table table{"", {"packing", "grains", "angle [deg]", "height [grains]", "radius [mm]", "at rest after [s]"}};
-  Plot plot = panel("Height [mm]", "distance from the axis [mm]");
+  Plot plot{"Height [mm]", {"distance from the axis [mm]"}};
   std::vector<Estimate> angles, heights, bases;
   Json runs = Json::array();
   for (const Heap& heap : heaps) {
@@ -311,8 +300,8 @@ Report report_on(const std::vector<dem::AngleOfReposeResult>& heaps, const std::
                     {"grains", heap.grains},
                     {"height", heap.height},
                     {"base", heap.base}});
-    add_line(plot, label_of("", heap.packing, heaps.size() > 1), column(heap.profile, times(&Ring::radius, 1e3)),
-             column(heap.profile, times(&Ring::height, 1e3)));
+    add_line(plot, label_of("", heap.packing, heaps.size() > 1), heap.profile, times(&Ring::radius, 1e3),
+             times(&Ring::height, 1e3));
   }
   const Estimate angle = mean_of_repeats(angles), height = mean_of_repeats(heights);
   std::vector<std::string> sentences{fmt::format(
@@ -344,7 +333,7 @@ Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil
   const bool several = runs.front().packing != runs.back().packing;
   Table table{"", {"plate [mm]", "packing", "grains", "void ratio", "sinkage [mm]", "pressure there [kPa]"}};
   Json all = Json::array(), means;
-  Plot plot = panel("Pressure [kPa]", "sinkage [mm]");
+  Plot plot{"Pressure [kPa]", {"sinkage [mm]"}};
   for (const dem::PlateRun& run : runs) {
     const Sample& last = run.curve.back();
     table.add({number(run.diameter * 1e3), std::to_string(run.packing), std::to_string(run.grains),
@@ -356,9 +345,8 @@ Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil
                    {"speed", run.speed},
                    {"sinkage", column(run.curve, &Sample::sinkage)},
                    {"pressure", column(run.curve, &Sample::pressure)}});
-    add_line(plot, label_of(fmt::format("{} mm", number(run.diameter * 1e3)), run.packing, several),
-             column(run.curve, times(&Sample::sinkage, 1e3)),
-             column(run.curve, [](const Sample& s) { return s.pressure / 1e3; }));
+    add_line(plot, label_of(fmt::format("{} mm", number(run.diameter * 1e3)), run.packing, several), run.curve,
+             times(&Sample::sinkage, 1e3), [](const Sample& s) { return s.pressure / 1e3; });
   }
   std::vector<std::string> sentences = told_means(means_of(runs, &dem::PlateRun::diameter, pressure_at_end),
                                                   "At the deepest, plate of", "mm", 1e3, "diameter", "pressure", means);
@@ -371,7 +359,7 @@ Report report_on(const std::vector<dem::AnnulusRun>& runs, const std::string& so
   const bool several = runs.front().packing != runs.back().packing;
   Table table{"", {"stress [kPa]", "packing", "shear stress at the end [kPa]", "sinkage [mm]"}};
   Json all = Json::array(), means;
-  Plot plot = panel("Shear stress [kPa]", "displacement [mm]");
+  Plot plot{"Shear stress [kPa]", {"displacement [mm]"}};
   for (const dem::AnnulusRun& run : runs) {
     table.add({number(run.stress / 1e3), std::to_string(run.packing), number(shear_at_end(run) / 1e3),
                number(run.curve.back().sinkage * 1e3)});
@@ -382,9 +370,8 @@ Report report_on(const std::vector<dem::AnnulusRun>& runs, const std::string& so
                    {"shear_stress", column(run.curve, &Sample::shear_stress)},
                    {"normal_stress", column(run.curve, &Sample::normal_stress)},
                    {"sinkage", column(run.curve, &Sample::sinkage)}});
-    add_line(plot, label_of(fmt::format("{} kPa", number(run.stress / 1e3)), run.packing, several),
-             column(run.curve, times(&Sample::displacement, 1e3)),
-             column(run.curve, [](const Sample& s) { return s.shear_stress / 1e3; }));
+    add_line(plot, label_of(fmt::format("{} kPa", number(run.stress / 1e3)), run.packing, several), run.curve,
+             times(&Sample::displacement, 1e3), [](const Sample& s) { return s.shear_stress / 1e3; });
   }
   std::vector<std::string> sentences =
       told_means(means_of(runs, &dem::AnnulusRun::stress, shear_at_end), "Shear stress at the end, under", "kPa", 1e-3,

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/failure_map/learned_map.hpp"
+#include "compare/failure_map/incline_map.hpp"
 #include "compare/recorded/record.hpp"
 #include "compare/report/heat_map.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answers.hpp"
-#include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/mapping_writer.hpp"
@@ -21,20 +20,17 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// "load 40 N, lug height 5 mm, angle 3 deg, slip 20 %".
-std::string factors_in_words(const std::vector<Factor>& factors, const VectorXd& values) {
-  std::string text;
-  for (std::size_t j = 0; j < factors.size(); ++j) {
-    const Factor& factor = factors[j];
-    text += fmt::format("{}{} {:.3g}{}", text.empty() ? "" : ", ", factor.name, values[j] * per_unit(factor.unit),
-                        unit_behind(factor.unit));
-  }
-  return text;
-}
-
 std::string bare(const Factor& factor, double value) { return fmt::format("{:.3g}", value * per_unit(factor.unit)); }
 
 std::string with_unit(const Factor& factor, double value) { return bare(factor, value) + unit_behind(factor.unit); }
+
+/// "load 40 N, lug height 5 mm, angle 3 deg, slip 20 %".
+std::string factors_in_words(const std::vector<Factor>& factors, const VectorXd& values) {
+  std::string text;
+  for (std::size_t j = 0; j < factors.size(); ++j)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", factors[j].name, with_unit(factors[j], values[j]));
+  return text;
+}
 
 /// "load up to 4 kN", "load from 3 kN", "load from 3 to 4 kN"; empty where the box has the whole range.
 std::string range_of(const Factor& factor, double lower, double upper) {
@@ -212,10 +208,6 @@ std::string grains_sentence(const FailureMapResult& result) {
 
 constexpr int map_cells = 7;  // of a heat map, along and up
 
-std::string in_units(const Factor& factor, double value) {
-  return fmt::format("{:.3g}{}", value * per_unit(factor.unit), unit_behind(factor.unit));
-}
-
 HeatCell cell_at(const FailureMapResult& result, const VectorXd& values) {
   const std::vector<Factor>& factors = result.question.factors;
   const Estimate there = result.rows.at(result.question, values);
@@ -223,9 +215,7 @@ HeatCell cell_at(const FailureMapResult& result, const VectorXd& values) {
   const double percent = std::round(100 * there.value);
   HeatCell cell{100 * there.value, percent == 0 ? "0" : fmt::format("{:+.0f}", percent), "", judged == Judged::differ};
   if (judged == Judged::undecided) cell.text += "?";
-  for (std::size_t j = 0; j < factors.size(); ++j)
-    cell.meaning += fmt::format("{}{} {}", j == 0 ? "" : ", ", factors[j].name, in_units(factors[j], values[j]));
-  cell.meaning += fmt::format(": {} % of the load", in_percent(there));
+  cell.meaning = fmt::format("{}: {} % of the load", factors_in_words(factors, values), in_percent(there));
   if (!result.rows.resolution_error.empty())
     cell.meaning +=
         fmt::format(", from infinitely fine grains {} %", in_percent(result.rows.at_fine(result.question, values)));
@@ -239,15 +229,15 @@ HeatMap heat_map_of(const FailureMapResult& result, double lug_height, double sl
   const std::vector<Factor>& factors = result.question.factors;
   const Factor &load = factors[map_load], &angle = factors[map_angle];
   HeatMap map;
-  map.title = fmt::format("{} {}, {} {}", factors[map_lug_height].name, in_units(factors[map_lug_height], lug_height),
-                          factors[map_slip].name, in_units(factors[map_slip], slip));
+  map.title = fmt::format("{} {}, {} {}", factors[map_lug_height].name, with_unit(factors[map_lug_height], lug_height),
+                          factors[map_slip].name, with_unit(factors[map_slip], slip));
   map.subtitle = less_in_words(result.map) + " [% of the load]";
   map.x_title = heading(load.name, load.unit), map.y_title = heading(angle.name, angle.unit);
   map.limit = 300 * result.question.tolerance;
   for (int c = 0; c < map_cells; ++c)
     map.x.push_back(fmt::format("{:.4g}", level_value(load, c, map_cells) * per_unit(load.unit)));
   for (int r = map_cells - 1; r >= 0; --r) {
-    map.y.push_back(in_units(angle, level_value(angle, r, map_cells)));
+    map.y.push_back(with_unit(angle, level_value(angle, r, map_cells)));
     std::vector<HeatCell> row;
     for (int c = 0; c < map_cells; ++c) {
       VectorXd values(4);
@@ -269,10 +259,6 @@ Json values_json(const std::vector<Factor>& factors, const VectorXd& values) {
   return json;
 }
 
-Json where_known(const std::optional<Estimate>& estimate) {
-  return estimate ? estimate_json(*estimate) : Json(nullptr);
-}
-
 /// The map at every setting of lug height and slip; a factor that does not vary has no slider. The tire's own lug
 /// height and 20 % slip are among the settings where they lie in the range, and the sliders start there, else next to
 /// them.
@@ -287,11 +273,11 @@ SlidingMap sliding_map_of(const FailureMapResult& result) {
     for (int i = 0; i < places; ++i) values.push_back(places == 1 ? factor.lower : level_value(factor, i, places));
     if (places > 1) {
       if (start > factor.lower && start < factor.upper && std::ranges::none_of(values, [&](double value) {
-            return in_units(factor, value) == in_units(factor, start);
+            return with_unit(factor, value) == with_unit(factor, start);
           }))
         values.insert(std::ranges::upper_bound(values, start), start);
       map.sliders.push_back({factor.name, {}});
-      for (const double value : values) map.sliders.back().settings.push_back(in_units(factor, value));
+      for (const double value : values) map.sliders.back().settings.push_back(with_unit(factor, value));
       const auto nearest = std::ranges::min_element(values, {}, [&](double value) { return std::abs(value - start); });
       map.first.push_back(static_cast<std::size_t>(nearest - values.begin()));
     }
@@ -409,12 +395,11 @@ Table coordinates_table(const FailureMapResult& result) {
   return table;
 }
 
-/// What lugs bring, by both models.
 Table lugs_table(const FailureMapResult& result) {
   const std::vector<Factor>& factors = result.question.factors;
   const Factor& lugs = factors[map_lug_height];
-  Table table{fmt::format("What lugs of {} bring over {}: drawbar pull, % of the load", in_units(lugs, lugs.upper),
-                          lugs.lower > 0 ? in_units(lugs, lugs.lower) : "none"),
+  Table table{fmt::format("What lugs of {} bring over {}: drawbar pull, % of the load", with_unit(lugs, lugs.upper),
+                          lugs.lower > 0 ? with_unit(lugs, lugs.lower) : "none"),
               {}};
   for (const int j : {map_load, map_angle, map_slip}) table.header.push_back(heading(factors[j].name, factors[j].unit));
   table.header.insert(table.header.end(), {model_in_words(std::string(word_of(result.map.of))),
@@ -454,32 +439,29 @@ Json failure_map_json(const FailureMapResult& result) {
       {"share_beyond", shares.beyond},          {"cross_validated_error", finite(result.rows.held_out.rms())}};
   document["of"] = word_of(result.map.of), document["against"] = word_of(result.map.against);
   document["shares"] = {{"agree", shares.agree}, {"differ", shares.differ}, {"undecided", shares.undecided}};
-  Json ranges = Json::array(), rows = Json::array(), groups = Json::array(), checks = Json::array();
-  for (const Factor& factor : factors)
-    ranges.push_back({{"name", factor.name}, {"lower", factor.lower}, {"upper", factor.upper}});
-  for (const FailureRow& row : result.rows.rows) {
-    Json json = values_json(factors, row.values);
-    json["difference"] = where_known(row.difference), json["beyond"] = row.beyond(result.question.tolerance);
-    json["resolution_error"] = where_known(row.resolution_error);
-    json["judged"] = word_of(result.rows.judged(result.question, row.values));
-    rows.push_back(std::move(json));
-  }
-  for (const Coordinates& c : result.coordinates)
-    groups.push_back({{"name", c.name}, {"held_out", finite(c.held_out)}});
-  for (const FreshCheck& check : result.checks) {
-    Json json = values_json(factors, check.values);
-    json["predicted"] = where_known(check.predicted), json["found"] = where_known(check.found);
-    checks.push_back(std::move(json));
-  }
-  Json gains = Json::array();
-  for (const LugGain& gain : result.lug_gains) {
+  document["lug_gains"] = list_of(result.lug_gains, [&](const LugGain& gain) {
     Json json = values_json(factors, gain.values);
     json["of"] = gain.of, json["against"] = estimate_json(gain.against);
-    gains.push_back(std::move(json));
-  }
-  document["lug_gains"] = gains;
-  document["factors"] = ranges, document["rows"] = rows;
-  document["coordinates"] = groups, document["checks"] = checks;
+    return json;
+  });
+  document["factors"] = list_of(factors, [](const Factor& factor) {
+    return Json{{"name", factor.name}, {"lower", factor.lower}, {"upper", factor.upper}};
+  });
+  document["rows"] = list_of(result.rows.rows, [&](const FailureRow& row) {
+    Json json = values_json(factors, row.values);
+    json["difference"] = or_null(row.difference), json["beyond"] = row.beyond(result.question.tolerance);
+    json["resolution_error"] = or_null(row.resolution_error);
+    json["judged"] = word_of(result.rows.judged(result.question, row.values));
+    return json;
+  });
+  document["coordinates"] = list_of(result.coordinates, [](const Coordinates& c) {
+    return Json{{"name", c.name}, {"held_out", finite(c.held_out)}};
+  });
+  document["checks"] = list_of(result.checks, [&](const FreshCheck& check) {
+    Json json = values_json(factors, check.values);
+    json["predicted"] = estimate_json(check.predicted), json["found"] = or_null(check.found);
+    return json;
+  });
   return document;
 }
 

@@ -7,7 +7,7 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/sweep/model_names.hpp"
+#include "compare/sweep/answers.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/sweep/wheel_limits.hpp"
@@ -81,7 +81,6 @@ std::vector<std::string> words_on_slopes(const WheelLimits& answer) {
   return words;
 }
 
-/// A row of soilbin-limits/1.
 Json limits_row(const WheelLimits& answer) {
   Json row = {{"label", answer.model.label}};
   row.update(to_json(answer.at));
@@ -97,14 +96,13 @@ Json limits_row(const WheelLimits& answer) {
   row["max_slip"] = answer.max_slip;
   row["steepest_slope_within_max_slip"] = or_null(answer.steepest_within);
   row["std_error"]["steepest_slope_within_max_slip"] = finite(answer.within_error);
-  row["slopes"] = Json::array();
-  for (const SlopeRow& slope : answer.slopes)
-    row["slopes"].push_back(
-        {{"longitudinal_incline", slope.slope},
-         {"slip", or_null(slope.slip)},
-         {"largest_pull", slope.best.drawbar_pull},
-         {"slip_of_largest_pull", slope.best.slip},
-         {"std_error", {{"slip", finite(slope.slip_error)}, {"largest_pull", finite(slope.pull_error)}}}});
+  row["slopes"] = list_of(answer.slopes, [](const SlopeRow& slope) {
+    return Json{{"longitudinal_incline", slope.slope},
+                {"slip", or_null(slope.slip)},
+                {"largest_pull", slope.best.drawbar_pull},
+                {"slip_of_largest_pull", slope.best.slip},
+                {"std_error", {{"slip", finite(slope.slip_error)}, {"largest_pull", finite(slope.pull_error)}}}};
+  });
   return row;
 }
 
@@ -157,10 +155,9 @@ Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& limits)
     const std::string model = model_in_words(answer.model.label),
                       which = one_load ? model : fmt::format("{}, {:.6g} N", model, answer.at.load);
     const auto add = [&](std::size_t plot, const std::string& label, int dash, const auto& value) {
-      Series series{which + ": " + label};
-      series.color = static_cast<int>(i), series.dash = dash;
-      for (const SlopeRow& row : answer.slopes) series.x.push_back(row.slope / degree), series.y.push_back(value(row));
-      sheet.plots[plot].series.push_back(std::move(series));
+      sheet.plots[plot].series.push_back(over_samples(
+          {.label = which + ": " + label, .color = static_cast<int>(i), .dash = dash}, answer.slopes,
+          [](const SlopeRow& row) { return row.slope / degree; }, value));
     };
     add(0, "largest pull", 0, [](const SlopeRow& row) { return row.best.drawbar_pull; });
     for (const SlopeRow& row : answer.slopes) sheet.plots[0].series.back().error.push_back(row.pull_error);
@@ -168,10 +165,12 @@ Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& limits)
         [](const SlopeRow& row) { return row.slip ? 100 * *row.slip : not_a_number; });
     add(1, "slip of the largest pull", 1, [](const SlopeRow& row) { return 100 * row.best.slip; });
     if (answer.steepest_within && *answer.steepest_within >= 0.0) {
-      Series within{fmt::format("{}: steepest slope at up to {:.3g} % slip", which, 100 * answer.max_slip)};
-      within.color = static_cast<int>(i), within.mark = Mark::points;
-      within.x = {*answer.steepest_within / degree}, within.y = {100 * answer.max_slip};
-      sheet.plots[1].series.push_back(std::move(within));
+      sheet.plots[1].series.push_back(
+          {.label = fmt::format("{}: steepest slope at up to {:.3g} % slip", which, 100 * answer.max_slip),
+           .x = {*answer.steepest_within / degree},
+           .y = {100 * answer.max_slip},
+           .mark = Mark::points,
+           .color = static_cast<int>(i)});
     }
   }
   if (std::ranges::all_of(sheet.plots[0].series, [](const Series& series) {
@@ -183,11 +182,7 @@ Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& limits)
 
 }  // namespace
 
-Json limits_rows(const std::vector<WheelLimits>& answers) {
-  Json rows = Json::array();
-  for (const WheelLimits& answer : answers) rows.push_back(limits_row(answer));
-  return rows;
-}
+Json limits_rows(const std::vector<WheelLimits>& answers) { return list_of(answers, limits_row); }
 
 Report report_on(const Case& question, const std::vector<WheelLimits>& answers,
                  const std::vector<ModelAnswers>& at_limits) {

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "bekker_wong/effect.hpp"
 #include "bekker_wong/learned.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/json_fields.hpp"
@@ -12,7 +14,6 @@
 #include "compare/telling/loop_report.hpp"
 
 namespace soilbin::compare {
-
 namespace {
 
 /// What these forms take for values that the wheel does not declare [SI].
@@ -25,24 +26,19 @@ Json presumes_json(const std::vector<const bekker_wong::EffectForm*>& forms, con
 }
 
 Json effects_json(const std::vector<AcceptedEffect>& effects, const Tire& wheel) {
-  Json list = Json::array();
-  for (const AcceptedEffect& effect : effects) {
+  return list_of(effects, [&](const AcceptedEffect& effect) {
     Json parameters = Json::object(), ci = Json::object(), bound = Json::array();
     for (const auto& [name, value] : effect.choice.parameters) parameters[name] = finite(value);
     for (std::size_t i = 0; i < effect.fitted.size(); ++i) {
       ci[effect.fitted[i]] = {finite(effect.ci95[i].first), finite(effect.ci95[i].second)};
       if (effect.at_bound[i]) bound.push_back(effect.fitted[i]);
     }
-    list.push_back({{"id", effect.choice.id},
-                    {"form", effect.choice.form},
-                    {"parameters", parameters},
-                    {"ci95", ci},
-                    {"at_bound", bound},
-                    {"p_value", finite(effect.p_value)},
-                    {"cosines", effect.cosines},
-                    {"presumes", presumes_json({&bekker_wong::find_form(effect.choice)}, wheel)}});
-  }
-  return list;
+    return Json{
+        {"id", effect.choice.id},    {"form", effect.choice.form},
+        {"parameters", parameters},  {"ci95", ci},
+        {"at_bound", bound},         {"p_value", finite(effect.p_value)},
+        {"cosines", effect.cosines}, {"presumes", presumes_json({&bekker_wong::find_form(effect.choice)}, wheel)}};
+  });
 }
 
 /// What leaving the accepted effects out does to the soil's values [SI].
@@ -99,24 +95,21 @@ Json condition_json(const LoopAnswer& answer) {
 
 Json next_json(const LoopAnswer& answer) {
   if (!answer.next()) return nullptr;
-  Json separates = Json::array();
-  for (const auto& ids : answer.next()->separates)
-    separates.push_back(ids.empty() ? "base" : fmt::format("{}", fmt::join(ids, "+")));
   return {{"condition", condition_json(answer)},
-          {"separates", separates},
+          {"separates",
+           list_of(answer.next()->separates,
+                   [](const auto& ids) { return ids.empty() ? "base" : fmt::format("{}", fmt::join(ids, "+")); })},
           {"runs", answer.next()->runs},
           {"beyond", answer.next()->beyond}};
 }
 
 /// Sets of effects with their shares, and what their best forms presume of the wheel.
 Json sets_json(const Attribution& found, const std::vector<WeightedSet>& sets, const Tire& wheel) {
-  Json list = Json::array();
-  for (const WeightedSet& w : sets) {
+  return list_of(sets, [&](const WeightedSet& w) {
     std::vector<const bekker_wong::EffectForm*> forms;
     for (const Term& term : found.candidates.models[w.best_candidate].terms()) forms.push_back(term.form);
-    list.push_back({{"effects", w.ids}, {"weight", finite(w.weight)}, {"presumes", presumes_json(forms, wheel)}});
-  }
-  return list;
+    return Json{{"effects", w.ids}, {"weight", finite(w.weight)}, {"presumes", presumes_json(forms, wheel)}};
+  });
 }
 
 /// What stands out where the base model may be off by itself, and whether that decides what else is told.
@@ -196,30 +189,26 @@ Json more_learned_json(const LoopAnswer& answer) {
 
 /// What the residual depends on, and how many of these may be false.
 Json depends_json(const LoopAnswer& answer) {
-  Json list = Json::array();
-  for (const Dependence& d : sure_dependences(answer))
-    list.push_back({{"channel", channel_views[d.channel].name},
-                    {"variable", d.variable},
-                    {"share", finite(d.share)},
-                    {"p_value", finite(d.p_value)},
-                    {"false_discovery_rate", finite(d.false_discovery_rate)}});
-  return list;
+  return list_of(sure_dependences(answer), [](const Dependence& d) {
+    return Json{{"channel", channel_views[d.channel].name},
+                {"variable", d.variable},
+                {"share", finite(d.share)},
+                {"p_value", finite(d.p_value)},
+                {"false_discovery_rate", finite(d.false_discovery_rate)}};
+  });
 }
 
 Json worse_json(const LoopAnswer& answer) {
-  Json names = Json::array();
-  for (const int channel : worse_channels(answer)) names.push_back(channel_views[channel].name);
-  return names;
+  return list_of(worse_channels(answer), [](int channel) { return channel_views[channel].name; });
 }
 
 Json set_aside_json(const LoopAnswer& answer) {
-  Json all = Json::array();
-  for (const SetAside& one : answer.set_aside)
-    all.push_back({{"line", one.csv_line},
-                   {"channel", channel_views[one.channel].name},
-                   {"measured", one.measured},
-                   {"predicted", finite(one.predicted)}});
-  return all;
+  return list_of(answer.set_aside, [](const SetAside& one) {
+    return Json{{"line", one.csv_line},
+                {"channel", channel_views[one.channel].name},
+                {"measured", one.measured},
+                {"predicted", finite(one.predicted)}};
+  });
 }
 
 Json with_outliers_json(const LoopAnswer& answer) {
@@ -292,6 +281,77 @@ Json details_json(const LoopAnswer& answer) {
           {"error_smooth_term", finite(answer.validation.overall.smooth)},
           {"sets", sets},
           {"folds", answer.validation.chosen}};
+}
+
+// The loop's answer as a case that other commands take.
+
+namespace {
+
+/// The conditions of a campaign's runs, each once. When and where a run was made, and how fast, counts where an effect
+/// hears of it; else all have the median speed.
+std::vector<OperatingCondition> asked_of(const Campaign& campaign, const std::vector<EffectChoice>& effects) {
+  const auto heard = [&](const char* key) {
+    return std::ranges::any_of(
+        effects, [&](const EffectChoice& effect) { return depends_on(bekker_wong::find_form(effect), key); });
+  };
+  std::vector<double> speeds;
+  for (const Run& run : campaign.runs) speeds.push_back(run.at.speed);
+  std::sort(speeds.begin(), speeds.end());
+  std::vector<OperatingCondition> conditions;
+  std::set<OperatingCondition> seen;
+  for (const Run& run : campaign.runs) {
+    OperatingCondition at = run.at;
+    if (!heard("run")) at.run.reset();
+    if (!heard("position")) at.position.reset();
+    if (!heard("inflation_pressure")) at.inflation_pressure.reset();
+    if (!heard("speed")) at.speed = speeds[speeds.size() / 2];
+    if (seen.insert(at).second) conditions.push_back(at);
+  }
+  return conditions;
+}
+
+/// What the model missed of conditions left out, where that is more than noise of so many values explains.
+Misfit misfit_of(const CrossValidation& held_out) {
+  constexpr double standard_errors = 2.0;
+  Misfit misfit{};
+  for (std::size_t c = 0; c < misfit.size(); ++c) {
+    const HeldOutErrors& e = held_out.channels[c];
+    if (e.cells == 0) continue;
+    const double noise = e.noise_floor * e.noise_floor, excess = e.after * e.after - noise;
+    if (excess > standard_errors * std::sqrt(2.0 / e.cells) * noise) misfit[c] = std::sqrt(excess);
+  }
+  return misfit;
+}
+
+}  // namespace
+
+std::string source_of_fit(const std::string& campaign) { return "fitted to campaign " + campaign; }
+
+Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
+  Case model;
+  model.name = campaign.name + "-model";
+  model.source = source_of_fit(campaign.name);
+  model.scenario = scenario_of(campaign);
+  model.scenario.effects.clear();
+  if (answer.judgement()) model.scenario.tire = answer.model().wheel();
+  model.scenario.tire.name = campaign.name + "-wheel";
+  model.scenario.soil.name = campaign.name + "-soil";
+  model.scenario.soil.semi_empirical = answer.soil;
+  std::erase_if(model.scenario.soil.semi_empirical->sources,  // a value that was fitted is no usual one any more
+                [&](const auto& from) { return answer.judgement() && from.second == usual_stress_angle_source; });
+  model.study.name = model.name;
+  ModelChoice choice;
+  choice.effects = campaign.effects;
+  for (const AcceptedEffect& effect : answer.effects_in_model()) choice.effects.push_back(effect.choice);
+  model.description = "Made by soilbin loop: " + verdict_sentence(answer);
+  if (const std::string proxies = proxy_sentence(answer); !proxies.empty()) model.description += " " + proxies;
+  for (const std::string& sentence : bekker_wong::presumptions(choice.effects, answer.wheel))
+    model.description += " " + sentence;
+  choice.label = "fitted";
+  if (answer.judgement()) choice.errors = answer.model().errors(), choice.misfit = misfit_of(answer.validation);
+  model.study.models = {choice};
+  model.study.conditions = asked_of(campaign, choice.effects);
+  return model;
 }
 
 }  // namespace soilbin::compare

@@ -12,12 +12,13 @@
 
 #include "compare/doubts/doubt.hpp"
 #include "compare/loop/loop.hpp"
+#include "compare/report/plot.hpp"
 #include "compare/report/report.hpp"
 #include "scenario/case.hpp"
 
 namespace soilbin::compare {
 
-// Answers for programs (loop_data.cpp, loop_model.cpp).
+// Answers for programs (loop_data.cpp).
 
 /// The answer as JSON, soilbin-loop/1.
 nlohmann::ordered_json to_json(const LoopAnswer& answer);
@@ -37,7 +38,6 @@ std::string source_of_fit(const std::string& campaign);
 /// What the verdict rests on, and what the effects of the saved model do to the error: one plain sentence.
 std::string reason_words(const LoopAnswer& answer);
 
-/// The verdict as one sentence.
 std::string verdict_sentence(const LoopAnswer& answer);
 
 /// At an unknown effect: what predicts in its place; "" where nothing does.
@@ -60,7 +60,7 @@ std::vector<std::string> explanation(const LoopAnswer& answer);
 /// drawbar pull (5.95 to 6.30 N)".
 std::string held_out_words(const CrossValidation& validation);
 
-// What to measure next (loop_next_runs.cpp): the run that sets the candidates apart (next_run), or where nothing has a
+// What to measure next: the run that sets the candidates apart (next_run), or where nothing has a
 // name the runs that show how the unexplained part depends on a condition.
 
 /// What to measure next, or why no run is proposed: first what to do, then sentences on why. Empty where no question is
@@ -75,7 +75,7 @@ std::string setting(double value);
 std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const OperatingCondition& at,
                                                  const std::string& condition);
 
-// Sets of effects and the evidence for them (loop_evidence.cpp).
+// Sets of effects and the evidence for them.
 
 /// "a", "a and b", "a, b and c".
 std::string joined_with_and(const std::vector<std::string>& words);
@@ -107,7 +107,7 @@ inline constexpr double least_share = 0.005;
 /// A set's share of the evidence as every sentence and table has it: "81 %".
 std::string share_words(double weight);
 
-// Tables (loop_tables.cpp).
+// Tables.
 
 /// The next run as a row: a column each condition, how many runs, what they decide between; of an unknown effect the
 /// rows of shape_series. No row: no run is proposed.
@@ -125,5 +125,29 @@ Table soil_table(const LoopAnswer& answer);
 /// folded what stands behind it. `doubts`: in the campaign (doubts_before_fit); those of mistaken columns open the
 /// headline. All outlive the report.
 Report report_on(const Campaign& campaign, const LoopAnswer& answer, const Doubts& doubts);
+
+// The figures of a loop's answer: measured values beside the model before and after. Before: the base model, its soil
+// refitted. After: the model with the effects that the answer's model uses. Colours and names are the same in all of
+// them.
+
+/// The curves against slip that a figure of the fit shows: (name of the curve, its rows), the one that the effects
+/// change most first. Empty where the runs do not lie on curves against slip: fewer than half of
+/// them have three others at other slips under the same conditions, or there are more than a dozen curves.
+std::vector<std::pair<std::string, std::vector<int>>> curves_of_the_fit(const LoopAnswer& answer);
+
+/// Each channel of these rows against slip, with both models at the mean of the rows' conditions.
+Sheet fit_sheet(const LoopAnswer& answer, const std::vector<int>& rows);
+
+/// What the base model misses in each channel's unit over one variable, beside what the effects change.
+Sheet gap_sheet(const LoopAnswer& answer, const Covariate& x);
+
+/// Residuals over one variable before and after [sd of the noise].
+Sheet residual_sheet(const LoopAnswer& answer, const Covariate& x);
+
+/// The effects' change of the prediction over the base model's residual [sd of the noise].
+Sheet signature_sheet(const LoopAnswer& answer, const Covariate& x);
+
+/// The variables of the campaign, first the one on which the effects' change depends most.
+std::vector<Covariate> variables_by_weight(const LoopAnswer& answer);
 
 }  // namespace soilbin::compare

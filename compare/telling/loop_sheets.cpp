@@ -1,5 +1,3 @@
-#include "compare/telling/loop_sheets.hpp"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -11,10 +9,11 @@
 #include <string>
 #include <utility>
 
-#include "compare/measured/channels.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/loop_report.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

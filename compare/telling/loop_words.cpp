@@ -2,20 +2,274 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <regex>
 #include <set>
 #include <utility>
 
 #include "bekker_wong/effects/titles.hpp"
 #include "bekker_wong/learned.hpp"
-#include "compare/measured/channels.hpp"
+#include "compare/attribution/choice.hpp"
+#include "compare/fit/thresholds.hpp"
+#include "compare/measured/campaign.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/telling/loop_report.hpp"
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
+namespace {
+
+constexpr double noise_level = 0.05;  // p below which noise alone is no explanation
+
+/// "4,000"
+std::string thousands_apart(long long value) {
+  std::string text = std::to_string(value);
+  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
+  return text;
+}
+
+/// Whether none of the simulated campaigns looked like this.
+bool in_none(const ResidualSignatures& signatures) { return signatures.p_value * (signatures.simulations + 1.0) < 1.5; }
+
+/// Unnamed in words, by its value.
+constexpr std::string_view unnamed_words[] = {
+    "a smooth function of the conditions",       "waves in one of the conditions",  "waves of one channel",
+    "a gain of all forces that waves",           "what the run before left behind", "a channel that is not linear",
+    "a slip or load that is not the one written"};
+
+/// What shows that something is left: beside the base model, or after the best set of known effects.
+struct SignWords {
+  bool after_the_best;
+
+  std::string operator()(const UnexplainedShare& left) const {
+    return fmt::format("but the best set of known effects leaves {:.0f} % of it", 100 * left.share);
+  }
+  std::string operator()(const UnnamedEvidence& unnamed) const {
+    return fmt::format(
+        "{}a function of the conditions unlike any of them explains the {} {} better than noise: most like {}",
+        after_the_best ? "and after the best set of known effects " : "", after_the_best ? "rest" : "residual",
+        times_likelier(unnamed.gain), unnamed_words[static_cast<std::size_t>(unnamed.most_likely)]);
+  }
+  std::string operator()(const LackOfFit& fit) const {
+    return fmt::format("the residual is more than noise (p = {:.2g})", fit.p_value);
+  }
+  std::string operator()(const RerunTest& reruns) const {
+    return fmt::format(
+        "{}more than their re-runs scatter (p = {:.2g})",
+        after_the_best ? "and after the best set of known effects setpoints still deviate " : "setpoints deviate ",
+        reruns.p_value);
+  }
+  std::string operator()(const SerialTest& serial) const {
+    return fmt::format("the residuals of the {} are correlated between successive runs (p = {:.2g})",
+                       serial.channel ? channel_views[*serial.channel].title : "forces", serial.p_value);
+  }
+};
+
+/// A reason as a clause; numbers that several reasons share are those of the judgement.
+struct ReasonWords {
+  const Attribution& found;
+
+  std::string operator()(const NoiseUnknown& noise) const {
+    return fmt::format("the noise of a channel has only {:.1f} degrees of freedom, too few to judge by", noise.freedom);
+  }
+  std::string operator()(const NothingVisible&) const {
+    return "no known effect would be visible in these data, whatever its size";
+  }
+  std::string operator()(const NoneStandsOut&) const {
+    return fmt::format("the strongest of all known effects reaches p = {:.3g}", found.signatures.p_value);
+  }
+  std::string operator()(const NoGain& no) const {
+    return fmt::format(
+        "the best effect fits ({}) but does not improve cross-validated predictions (gain in ln density a condition "
+        "{:.2g} +- {:.2g})",
+        p_words(found.signatures), no.gain.mean, no.gain.std_error);
+  }
+  std::string operator()(const Refuted& errors) const {
+    return fmt::format(
+        "the best effect fits ({}), but with the effects that are found without them conditions left out are predicted "
+        "worse: {:.4g} standard deviations of the noise, root mean square, in place of {:.4g}",
+        p_words(found.signatures), errors.with, errors.without);
+  }
+  std::string operator()(const StandsOut&) const { return p_words(found.signatures) + " among the whole catalogue"; }
+  std::string operator()(const NoneAccepted& none) const {
+    return fmt::format("no known effect is accepted ({}), but {}", noise_verdict(found.signatures),
+                       std::visit(SignWords{false}, none.sign));
+  }
+  std::string operator()(const MoreThanNamed& more) const {
+    return fmt::format("the residual is real ({}), {}", noise_verdict(found.signatures),
+                       std::visit(SignWords{true}, more.sign));
+  }
+  std::string operator()(const BaseModelWrong&) const {
+    return fmt::format(
+        "the base model errs by a smooth function of load and slip, {}; of the known effects {} comes nearest",
+        noise_verdict(found.signatures), named_effects(found.best().ids));
+  }
+};
+
+}  // namespace
+
+std::string joined_with_and(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  return text;
+}
+
+std::string joined(const std::set<std::string>& ids) {
+  return ids.empty() ? "no effect" : fmt::format("{}", fmt::join(ids, " + "));
+}
+
+std::string named_effects(const std::set<std::string>& ids) {
+  std::vector<std::string> names;
+  for (const std::string& id : ids) names.emplace_back(bekker_wong::effect_title(id).name);
+  return names.empty() ? "no effect" : joined_with_and(names);
+}
+
+std::string times_likelier(double log_odds) {
+  constexpr double million = 1e6;
+  const double odds = std::exp(log_odds);
+  if (odds > million) return "more than a million times";
+  if (odds < 10) return fmt::format("{:.2g} times", odds);
+  const double step = std::pow(10.0, std::floor(std::log10(odds)) - 1);
+  return thousands_apart(std::llround(std::round(odds / step) * step)) + " times";
+}
+
+std::string p_words(const ResidualSignatures& signatures) {
+  return fmt::format("p {} {:.2g}", in_none(signatures) ? "<" : "=", signatures.p_value);
+}
+
+std::string noise_verdict(const ResidualSignatures& signatures) {
+  return fmt::format("{}explained by noise ({})", signatures.p_value < noise_level ? "not " : "", p_words(signatures));
+}
+
+std::string reason_words(const TooFewValues& few) {
+  return fmt::format("{} measured values of {} are too few for {} soil values", few.values,
+                     counted(few.conditions, "condition"), few.soil_values);
+}
+
+std::string reason_words(const Judgement& judgement) {
+  return std::visit(ReasonWords{judgement.found}, judgement.reason);
+}
+
+std::string formula_text(const LearnedFormula& formula) {
+  std::string text = "g =";
+  for (std::size_t k = 0; k < formula.terms.size(); ++k) {
+    const Estimate& w = formula.weights[k];
+    const bool negative = w.value < 0.0;
+    const std::string term = formula.terms[k].text == "1" ? "" : " " + formula.terms[k].text;
+    text += fmt::format(" {}({}){}", k == 0 ? (negative ? "-" : "") : (negative ? "- " : "+ "),
+                        number(Estimate{std::abs(w.value), w.std_error}), term);
+  }
+  return text;
+}
+
+std::string share_words(double weight) {
+  return weight < least_share ? "< 1 %" : fmt::format("{:.0f} %", 100 * weight);
+}
+
+namespace {
+
+std::string condition_words(const LoopAnswer& answer) {
+  std::string text;
+  for (const std::string& name : answer.next()->quantities) {
+    const auto [value, unit] = next_setting(answer, answer.next()->at, name);
+    if (value.empty()) continue;
+    text += fmt::format("{}{} {}{}{}", text.empty() ? "" : ", ", condition_view(name).title, value,
+                        unit.empty() ? "" : " ", unit);
+  }
+  return text;
+}
+
+/// What to do where no condition shows on which the rest depends.
+std::vector<std::string> without_a_condition(const LoopAnswer& answer) {
+  const UnnamedEvidence& unnamed = answer.found().unnamed;
+  if (unnamed.gain > thresholds::unnamed_instead && unnamed.most_likely == Unnamed::misread_condition)
+    return {"Before more runs, check how slip and load are measured, and at which conditions.",
+            "The unexplained part looks like a misread slip or load."};
+  if (answer.judgement()->before.serial.p_value <= thresholds::serial_level)
+    return {"Measure one setpoint, repeated through the whole campaign.",
+            "The unexplained part changes from run to run, not by chance."};
+  return {"Vary one condition alone, each setting run twice.", "The cause of the unexplained part is not visible yet."};
+}
+
+/// What has no name predicts nothing; but where it shows can be said.
+std::vector<std::string> to_show_its_shape(const LoopAnswer& answer) {
+  const std::vector<Dependence> sure = sure_dependences(answer);
+  if (sure.empty()) return without_a_condition(answer);
+  const Dependence& on = sure.front();
+  const std::string variable = spaced(condition_view(on.variable).title);
+  return {on.variable == "run"
+              ? "Measure one setpoint, repeated through the whole campaign."
+              : fmt::format("Measure several settings of the {} alone, each one twice, all else kept.", variable),
+          fmt::format("The unexplained part of the {} depends most on the {} (p = {:.2g}; false-discovery rate over {} "
+                      "pairs of channel and variable: {}).",
+                      channel_views[on.channel].title, variable, on.p_value, dependences_left(answer).size(),
+                      share_words(on.false_discovery_rate))};
+}
+
+std::string next_behind(const LoopAnswer& answer) {
+  const WeightedSet* next = next_standing(answer.found().candidates, answer.found().best().ids);
+  return named_effects(next ? next->ids : std::set<std::string>());
+}
+
+/// The run that sets the candidates apart: what to do, then why.
+std::vector<std::string> to_set_apart(const LoopAnswer& answer) {
+  const NextRun& next = *answer.next();
+  const std::string ahead = named_effects(next.separates.front()), behind = named_effects(next.separates.back());
+  std::vector<std::string> sentences;
+  if (answer.verdict() == Verdict::unknown_effect)
+    sentences = {fmt::format("To choose between the nearest known effects, measure {}.", condition_words(answer))};
+  else if (answer.ambiguity_set().size() == 1)
+    sentences = {fmt::format("To confirm, measure {}.", condition_words(answer)),
+                 fmt::format("There it differs most from the next candidate, {}: by {:.1f} standard deviations of one "
+                             "run.",
+                             behind, std::sqrt(next.distance))};
+  else
+    sentences = {fmt::format("Measure {}.", condition_words(answer))};
+  if (sentences.size() == 1)
+    sentences.push_back(
+        fmt::format("{} run{} there should decide: {} or {}.", next.runs, next.runs == 1 ? "" : "s", ahead, behind));
+  std::vector<std::string> names, beyond = beyond_what_is_known(next);
+  if (beyond.empty()) return sentences;
+  for (const std::string& name : beyond) names.push_back(spaced(name));
+  sentences.push_back(
+      fmt::format("Its {} lie{} beyond the measured range; if your rig cannot reach it, give --limit {}=LOW..HIGH.",
+                  joined_with_and(names), names.size() == 1 ? "s" : "", beyond.front()));
+  return sentences;
+}
+
+}  // namespace
+
+std::vector<std::string> what_next(const LoopAnswer& answer) {
+  std::vector<std::string> sentences;
+  if (answer.verdict() == Verdict::unknown_effect) {
+    sentences = to_show_its_shape(answer);
+  } else if (!proposes_next(answer)) {
+    if (answer.verdict() == Verdict::effect_found && is_settled(answer.found().candidates))
+      return {fmt::format("No further run is needed to choose the effect: the next candidate, {}, is {} less likely.",
+                          next_behind(answer), times_likelier(lead(answer.found().candidates)))};
+    if (answer.ambiguity_set().size() > 1)
+      return {"No condition within the limits separates these candidates in 50 runs."};
+    if (answer.verdict() == Verdict::effect_found && answer.ambiguity_set().size() == 1)
+      return {"One candidate is left; no condition within the limits confirms it further in one run."};
+  }
+  if (proposes_next(answer))
+    for (std::string& sentence : to_set_apart(answer)) sentences.push_back(std::move(sentence));
+  return sentences;
+}
+
+std::string setting(double value) {
+  if (std::abs(value) < 1e-9) return "0";
+  return fmt::format("{:.10g}", three_digits(value));
+}
+
+std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const OperatingCondition& at,
+                                                 const std::string& condition) {
+  const auto [unit, per_si] = own_unit(answer.found().base.data().campaign->columns, condition_view(condition));
+  const double set = rig_setting_of(answer, at, condition);
+  return {std::isfinite(set) ? fmt::format("{:.6g}", per_si * set) : "", unit};
+}
+
 namespace {
 
 using bekker_wong::effect_title;

@@ -5,7 +5,6 @@
 
 #include "compare/doubts/doubts.hpp"
 #include "compare/measured/campaign.hpp"
-#include "compare/measured/channels.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/prediction.hpp"
@@ -19,9 +18,7 @@ namespace {
 
 /// The runs of a campaign under their own labels, measured and predicted (± one standard error).
 Table runs_table(const Prediction& prediction) {
-  std::vector<OperatingCondition> conditions;
-  for (const PredictedRun& run : prediction.runs) conditions.push_back(run.measured.at);
-  const Curves curves = curves_against_slip(conditions, Spread::measured);
+  const Curves curves = curves_against_slip(conditions_of(prediction), Spread::measured);
   const bool labelled =
       std::ranges::any_of(prediction.runs, [](const PredictedRun& run) { return run.measured.setpoint.has_value(); });
   std::vector<std::string> header = {"run"};
@@ -54,17 +51,16 @@ Table runs_table(const Prediction& prediction) {
   return table;
 }
 
-Table channel_errors_table(const Prediction& prediction) {
-  Table table{"", {"channel", "runs", "rms error", "bias (predicted - measured)", "measured range", "rms/range [%]"}};
-  for (const ChannelError& error : prediction.errors) {
-    const auto in_unit = [&](double si) { return compare::in_unit(error.channel, si); };
-    table.add({std::string(channel_views[error.channel].title), std::to_string(error.runs), in_unit(error.rmse),
-               in_unit(error.bias), in_unit(error.range), number(100 * error.share_of_range)});
-  }
+}  // namespace
+
+Table channel_errors_table(const Prediction& prediction, std::string caption, std::vector<std::string> header) {
+  Table table{std::move(caption), std::move(header)};
+  for (const ChannelError& error : prediction.errors)
+    table.add({std::string(channel_views[error.channel].title), std::to_string(error.runs),
+               in_unit(error.channel, error.rmse), in_unit(error.channel, error.bias),
+               in_unit(error.channel, error.range), number(100 * error.share_of_range)});
   return table;
 }
-
-}  // namespace
 
 Report report_on(const Prediction& prediction, const Campaign& campaign, const Scenario& asked,
                  const std::string& soil_from) {
@@ -83,7 +79,9 @@ Report report_on(const Prediction& prediction, const Campaign& campaign, const S
   for (const PredictedRun& run : prediction.runs)
     if (!run.predicted.result) unsolved.push_back(fmt::format("run {}: no solution: {}", run.run, run.predicted.error));
   if (!unsolved.empty()) report.add(Sentences(unsolved));
-  report.add("How far off", channel_errors_table(prediction));
+  report.add("How far off", channel_errors_table(prediction, "",
+                                                 {"channel", "runs", "rms error", "bias (predicted - measured)",
+                                                  "measured range", "rms/range [%]"}));
   report.data = [&] { return to_json(prediction, campaign.name); };
   report.csv = [&] { return prediction_csv(prediction, remarks_on(campaign, asked, prediction)); };
   return report;

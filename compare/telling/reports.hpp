@@ -38,6 +38,7 @@ struct AnalyticDrive;
 struct BevameterFit;
 struct BevameterReadings;
 struct Campaign;
+struct CompiledC;
 struct DrivenAnswers;
 struct DriveSides;
 struct FailureMapResult;
@@ -52,7 +53,9 @@ struct MeasuredShearFit;
 struct ModelAnswers;
 struct Prediction;
 struct Reproduction;
+struct SlipMap;
 struct VehicleAnswers;
+struct WheelFmu;
 struct WheelLimits;
 struct WheelSlipFit;
 
@@ -68,6 +71,9 @@ nlohmann::ordered_json limits_rows(const std::vector<WheelLimits>& answers);
 /// and not fitted".
 Report report_on(const Prediction& prediction, const Campaign& campaign, const Scenario& asked,
                  const std::string& soil_from);
+
+/// How far off a prediction is, a row a channel; `header` names the columns.
+Table channel_errors_table(const Prediction& prediction, std::string caption, std::vector<std::string> header);
 
 /// A drive of the analytic wheel: how it ended and where the work went; soilbin-drive/1.
 Report report_on(const AnalyticDrive& drive);
@@ -92,6 +98,13 @@ Report report_on(const ForceTable& table);
 
 /// A wheel as Gazebo's plugin WheelSlip has it: two lines fitted to the model's curves; soilbin-wheel-slip/1.
 Report report_on(const WheelSlipFit& fit);
+/// The wheel with its map of soils: each one's colour, what the plugins have there, what the map can't say; with the
+/// key `map`. `file`: of the map, for the SDF.
+Report report_on(const WheelSlipFit& fit, const SlipMap& map, const std::string& file);
+
+/// A driven wheel as a unit of FMI 2.0: its table and that one's errors, its variables, whether it was compiled;
+/// soilbin-fmu/1.
+Report report_on(const WheelFmu& fmu, const CompiledC& compiled);
 
 /// A soil as Chrono's SCM terrain reads it (scenario/scm_soil.hpp): its values with their units, what is chosen, which
 /// of our effects SCM lacks. The data are SCM's file; `version`: of soilbin.

@@ -7,7 +7,7 @@
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/reproduction/reproduction.hpp"
-#include "compare/sweep/model_names.hpp"
+#include "compare/sweep/answers.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/reports.hpp"
@@ -166,7 +166,6 @@ std::string claim(const Finding& finding, double scale, const std::string& unit)
   return words;
 }
 
-/// A finding's words, figure and intervals.
 std::vector<ReportPart> parts_of(const ReproducedFinding& row, const std::vector<std::string>& labels) {
   const Finding& finding = row.finding;
   const auto [scale, unit] = shown_in(finding);
@@ -209,8 +208,7 @@ Json reproduction_json(const Reproduction& reproduction) {
         one["value"] = finite(evidence.interval->value);
         one["lower"] = finite(evidence.interval->lower), one["upper"] = finite(evidence.interval->upper);
       }
-      one["missing"] = Json::array();
-      for (const OperatingCondition& at : evidence.missing) one["missing"].push_back(to_json(at));
+      one["missing"] = list_of(evidence.missing, [](const OperatingCondition& at) { return to_json(at); });
       answers[reproduction.labels[k]] = std::move(one);
     }
     document["rows"].push_back({{"id", finding.id},

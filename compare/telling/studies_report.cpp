@@ -13,9 +13,10 @@
 #include "compare/report/number_text.hpp"
 #include "compare/report/shell_words.hpp"
 #include "compare/sweep/answer_sheets.hpp"
-#include "compare/sweep/model_names.hpp"
+#include "compare/sweep/answers.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
@@ -35,9 +36,7 @@ struct Peak {
 
 /// A peak for each curve of a model's answers, in the order of curves_against_slip.
 std::vector<Peak> peaks(const ModelAnswers& model) {
-  std::vector<OperatingCondition> conditions;
-  for (const Answer& answer : model.answers) conditions.push_back(answer.at);
-  const Curves curves = curves_against_slip(conditions, Spread::exact);
+  const Curves curves = curves_against_slip(conditions_of(model.answers), Spread::exact);
   std::vector<Peak> found(curves.labels.size());
   for (std::size_t c = 0; c < found.size(); ++c) found[c].label = curves.labels[c];
   for (std::size_t i = 0; i < model.answers.size(); ++i) {
@@ -174,20 +173,8 @@ Table answers_table(const StudyPart& part) {
   return table;
 }
 
-Table error_table(const Prediction& prediction) {
-  Table table{"Predicted less measured, without fitting",
-              {"channel", "runs", "RMS error", "bias", "measured range", "share of range [%]"}};
-  for (const ChannelError& error : prediction.errors) {
-    table.add({std::string(channel_views[error.channel].title), std::to_string(error.runs),
-               in_unit(error.channel, error.rmse), in_unit(error.channel, error.bias),
-               in_unit(error.channel, error.range), number(100 * error.share_of_range)});
-  }
-  return table;
-}
-
-std::string source_of(const std::map<std::string, std::string>& sources, const std::string& key) {
-  const auto found = sources.find(key);
-  return found == sources.end() ? "" : found->second;
+std::string source_of(const SemiEmpiricalSoil& soil, const std::string& key) {
+  return soil.sources.contains(key) ? soil.sources.at(key) : "";
 }
 
 Table soil_table(const std::string& name, const SemiEmpiricalSoil& soil, const std::string& source) {
@@ -195,11 +182,11 @@ Table soil_table(const std::string& name, const SemiEmpiricalSoil& soil, const s
               {"value", "", "unit", "source"},
               {true, false, true, true}};
   for (const SoilParameter& p : soil_parameters)
-    table.add({p.title, number(soil.*p.value, p.per_si), p.unit, source_of(soil.sources, p.name)});
+    table.add({p.title, number(soil.*p.value, p.per_si), p.unit, source_of(soil, p.name)});
   if (!soil.density) table.add({"density", number(presumed_bulk_density), "kg/m^3", "assumed: the soil declares none"});
   for (const ExactSoilValue& exact : exact_soil_values)
     if (const std::optional<double>& value = soil.*exact.value)
-      table.add({exact.name, number(*value), exact.unit, source_of(soil.sources, exact.name)});
+      table.add({exact.name, number(*value), exact.unit, source_of(soil, exact.name)});
   return table;
 }
 
@@ -240,11 +227,8 @@ Figure curve_figure(const StudyPart& part, const Case& curves, std::vector<Model
   return {std::move(sheet), std::move(caption)};
 }
 
-/// Of answers those on one curve.
 std::vector<Answer> on_curve(const std::vector<Answer>& answers, const std::string& label) {
-  std::vector<OperatingCondition> conditions;
-  for (const Answer& answer : answers) conditions.push_back(answer.at);
-  const Curves curves = curves_against_slip(conditions, Spread::exact);
+  const Curves curves = curves_against_slip(conditions_of(answers), Spread::exact);
   std::vector<Answer> some;
   for (std::size_t i = 0; i < answers.size(); ++i)
     if (curves.labels[curves.curve_of[i]] == label) some.push_back(answers[i]);
@@ -300,7 +284,9 @@ void add_study(Report& report, const StudyPart& part, bool opens) {
 }
 
 void add_campaign(Report& report, const CampaignPart& part) {
-  report.add(part.campaign.name, error_table(part.prediction));
+  report.add(part.campaign.name,
+             channel_errors_table(part.prediction, "Predicted less measured, without fitting",
+                                  {"channel", "runs", "RMS error", "bias", "measured range", "share of range [%]"}));
   report.add(origin_of_errors(scenario_of(part.campaign)));
   report.add(Figure(campaign_sheet(part.campaign, part.prediction),
                     "Points: measured runs. Lines: what the model says at the same load, slip and angle, with the soil "
@@ -356,15 +342,15 @@ std::vector<KeyFigure> key_figures(const std::vector<StudyPart>& studies, const 
 
 /// soilbin-report/1: of each study soilbin-run/1, of each campaign soilbin-predict/1.
 Json studies_json(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns) {
-  Json document = {{"format", "soilbin-report/1"}, {"studies", Json::array()}, {"campaigns", Json::array()}};
-  for (const StudyPart& part : studies) {
-    Json study = run_json(part.question, rows_json(part.study));
-    add_warnings(study, {});  // the page's own stand beside it
-    document["studies"].push_back(std::move(study));
-  }
-  for (const CampaignPart& part : campaigns)
-    document["campaigns"].push_back(to_json(part.prediction, part.campaign.name));
-  return document;
+  return {{"format", "soilbin-report/1"},
+          {"studies", list_of(studies,
+                              [](const StudyPart& part) {
+                                Json study = run_json(part.question, rows_json(part.study));
+                                add_warnings(study, {});  // the page's own stand beside it
+                                return study;
+                              })},
+          {"campaigns",
+           list_of(campaigns, [](const CampaignPart& part) { return to_json(part.prediction, part.campaign.name); })}};
 }
 
 }  // namespace

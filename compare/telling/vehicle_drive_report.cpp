@@ -9,7 +9,7 @@
 #include "compare/report/number_text.hpp"
 #include "compare/telling/drive_columns.hpp"
 #include "compare/telling/reports.hpp"
-#include "compare/vehicle/driven_answers.hpp"
+#include "compare/vehicle/vehicle_answers.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/unit.hpp"
 
@@ -19,23 +19,10 @@ namespace {
 std::string axle_called(const DrivenAnswers& answers, std::size_t axle) { return answers.question.axles[axle].name; }
 
 std::string vehicle_end_in_words(DriveEnd end) {
-  switch (end) {
-    case DriveEnd::time_is_up:
-      return "it still travels when time is up";
-    case DriveEnd::arrived:
-      return "it arrives";
-    case DriveEnd::stuck:
-      return "it is stuck";
-    case DriveEnd::buried:
-      return "it is buried";
-    case DriveEnd::rolled_back:
-      return "it rolls back";
-    case DriveEnd::tips_over:
-      return "it tips over";
-    case DriveEnd::bed_ends:
-      break;
-  }
-  return "";
+  if (end == DriveEnd::time_is_up) return "it still travels when time is up";
+  if (end == DriveEnd::arrived) return "it arrives";
+  if (end == DriveEnd::rolled_back) return "it rolls back";
+  return end == DriveEnd::tips_over ? "it tips over" : fmt::format("it is {}", word_of(end));
 }
 
 std::string number_or_error(double value, const std::optional<double>& std_error) {
@@ -90,20 +77,15 @@ std::vector<BackedSentence> driven_verdicts(const DrivenAnswers& answers) {
   return said;
 }
 
-std::string percent_or_dash(const std::optional<double>& slip) { return slip ? number(100 * *slip) : "-"; }
-
 Table driven_samples_table(const VehicleDriveRecord& record) {
-  constexpr std::size_t shown = 12;
   Table table{"",
               {"time [s]", "travelled [m]", "slope [deg]", "speed [m/s]", "rim [m/s]", "slip [%]", "torque [N m]",
                "deepest [mm]"}};
-  const std::size_t count = record.samples.size(), rows = std::min(shown, count);
-  for (std::size_t row = 0; row < rows; ++row) {
-    const VehicleDriveSample& s = record.samples[rows == 1 ? 0 : row * (count - 1) / (rows - 1)];
+  for (const VehicleDriveSample& s : picked_samples(record.samples, shown_samples)) {
     double deepest = 0.0;
     for (const DrivenAxle& axle : s.axles) deepest = std::max(deepest, axle.sinkage);
     table.add({number(s.time), number(s.travelled), number(s.slope / degree), number(s.speed), number(s.rim_speed),
-               percent_or_dash(s.slip), number(s.torque), number(1000 * deepest)});
+               slip_text(s.slip), number(s.torque), number(1000 * deepest)});
   }
   return table;
 }
@@ -113,7 +95,7 @@ Table driven_axles_table(const DrivenAnswers& answers) {
               {"axle", "load [N]", "slip [%]", "force [N]", "torque [N m]", "sinkage [mm]"}};
   const std::vector<DrivenAxle>& axles = answers.record->samples.back().axles;
   for (std::size_t i = 0; i < axles.size(); ++i)
-    table.add({axle_called(answers, i), number(axles[i].normal_load), percent_or_dash(axles[i].slip),
+    table.add({axle_called(answers, i), number(axles[i].normal_load), slip_text(axles[i].slip),
                number(axles[i].forward), number(axles[i].torque), number(1000 * axles[i].sinkage)});
   table.legend = "Load: normal to the ground. Force: of the soil along travel.";
   return table;
@@ -148,10 +130,8 @@ Sheet driven_sheet(const DrivenAnswers& answers) {
   const auto axles_named = static_cast<int>(answers.question.axles.size());
   const auto curve = [&](const std::string& label, int color,
                          const std::function<double(const VehicleDriveSample&)>& get) {
-    Series series{label};
-    series.color = color % 6, series.dash = color / 6;
-    for (const VehicleDriveSample& s : samples) series.x.push_back(s.time), series.y.push_back(get(s));
-    return series;
+    return over_samples({.label = label, .color = color % 6, .dash = color / 6}, samples, &VehicleDriveSample::time,
+                        get);
   };
   const auto of_axles = [&](const std::string& title, const std::function<double(const DrivenAxle&)>& get) {
     Plot plot{title, time, {}, {}};
@@ -215,18 +195,18 @@ const DriveColumns<DrivenAxle>& driven_axle_columns() {
 }
 
 Json moved_vehicle_json(const MovedVehicleDrive::Side& side) {
+  if (!side.end) return {{"value", side.value}, {"end", nullptr}, {"end_time", nullptr}, {"travelled", nullptr}};
   return {{"value", side.value},
-          {"end", side.end ? Json(std::string(word_of(*side.end))) : Json()},
-          {"end_time", side.end ? Json(side.end_time) : Json()},
-          {"travelled", side.end ? Json(side.travelled) : Json()}};
+          {"end", std::string(word_of(*side.end))},
+          {"end_time", side.end_time},
+          {"travelled", side.travelled}};
 }
 
-/// soilbin-vehicle-drive/1
 Json driven_json(const DrivenAnswers& answers) {
   Json document = {{"format", "soilbin-vehicle-drive/1"},
                    {"vehicle", answers.question.name},
                    {"soil", answers.question.soil.name},
-                   {"steepest_steady_slope", answers.up.angle ? estimate_json(*answers.up.angle) : Json()}};
+                   {"steepest_steady_slope", or_null(answers.up.angle)}};
   document["end"] = answers.record ? Json(std::string(word_of(answers.record->end))) : Json();
   document["failure"] = answers.failure ? Json(answers.failure->words) : Json();
   if (!answers.record) return document;
@@ -237,19 +217,19 @@ Json driven_json(const DrivenAnswers& answers) {
   document["travelled_std_error"] = or_null(answers.travelled_error);
   document["gave_out"] = record.gave_out ? Json(axle_called(answers, *record.gave_out)) : Json();
   document["at_motors_limit"] = record.at_motors_limit;
-  document["soil_errors"] = Json::array();
-  for (const MovedVehicleDrive& moved : answers.moved)
-    document["soil_errors"].push_back({{"of", moved.title},
-                                       {"value", moved.value},
-                                       {"std_error", moved.sd},
-                                       {"lower", moved_vehicle_json(moved.lower)},
-                                       {"higher", moved_vehicle_json(moved.higher)}});
-  document["happenings"] = Json::array();
-  for (const VehicleDriveHappening& h : record.happenings)
-    document["happenings"].push_back({{"time", h.time},
-                                      {"travelled", h.travelled},
-                                      {"axle", axle_called(answers, h.axle)},
-                                      {"what", std::string(word_of(h.what))}});
+  document["soil_errors"] = list_of(answers.moved, [](const MovedVehicleDrive& moved) {
+    return Json{{"of", moved.title},
+                {"value", moved.value},
+                {"std_error", moved.sd},
+                {"lower", moved_vehicle_json(moved.lower)},
+                {"higher", moved_vehicle_json(moved.higher)}};
+  });
+  document["happenings"] = list_of(record.happenings, [&](const VehicleDriveHappening& h) {
+    return Json{{"time", h.time},
+                {"travelled", h.travelled},
+                {"axle", axle_called(answers, h.axle)},
+                {"what", std::string(word_of(h.what))}};
+  });
   document["samples"] = columns_json(driven_columns(), record.samples);
   document["axles"] = Json::array();
   for (std::size_t i = 0; i < answers.question.axles.size(); ++i) {
@@ -262,7 +242,6 @@ Json driven_json(const DrivenAnswers& answers) {
   return document;
 }
 
-/// A row for each sample and axle.
 std::string driven_csv(const DrivenAnswers& answers) {
   std::string text;
   for (const DriveColumn<VehicleDriveSample>& column : driven_columns()) text += std::string(column.name) + ",";

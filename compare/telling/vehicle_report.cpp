@@ -1,4 +1,4 @@
-// A vehicle on soil as it is told; soilbin-vehicle-answer/1.
+// A vehicle on soil as it is told: soilbin-vehicle-answer/1, and by its cone index soilbin-mobility/1.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "compare/report/number_text.hpp"
 #include "compare/telling/reports.hpp"
 #include "compare/vehicle/vehicle_answers.hpp"
+#include "cone_index/vehicle.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/unit.hpp"
 
@@ -45,19 +46,8 @@ std::string failure_in_words(const VehicleAnswers& answers, const VehicleFailure
 }
 
 const char* failure_word(GaveOut why) {
-  switch (why) {
-    case GaveOut::wheel:
-      return "wheel";
-    case GaveOut::pull:
-      return "pull";
-    case GaveOut::hold:
-      return "hold";
-    case GaveOut::tips_over:
-      return "tips_over";
-    case GaveOut::slides:
-      return "slides";
-  }
-  return "";
+  constexpr std::array words = {"wheel", "pull", "hold", "tips_over", "slides"};  // in the order of its values
+  return words[static_cast<std::size_t>(why)];
 }
 
 std::string condition_in_words(const VehicleCondition& at) {
@@ -184,7 +174,6 @@ Table pulls_table(const VehicleAnswers& answers) {
   return table;
 }
 
-/// What the answer does not know.
 std::vector<std::string> vehicle_remarks(const VehicleAnswers& answers) {
   std::vector<std::string> said;
   const bool ruts = std::ranges::any_of(answers.wheels, [](const VehicleWheel& wheel) { return wheel.pass > 1; });
@@ -268,14 +257,13 @@ Sheet vehicle_sheet(const VehicleAnswers& answers) {
   }
   sheet.plots[0].series.push_back(std::move(pull));
   for (std::size_t i = 0; i < answers.wheels.size(); ++i) {
-    Series sinkage{answers.wheels[i].name};
-    sinkage.color = static_cast<int>(i) % 6;
-    sinkage.dash = static_cast<int>(i) / 6;
-    for (const VehiclePullRow& row : answers.pulls) {
-      sinkage.x.push_back(100 * row.slip);
-      sinkage.y.push_back(row.vehicle ? 1e3 * row.vehicle->wheels[i].result.sinkage.value : not_a_number);
-    }
-    sheet.plots[1].series.push_back(std::move(sinkage));
+    const auto number = static_cast<int>(i);
+    sheet.plots[1].series.push_back(over_samples(
+        {.label = answers.wheels[i].name, .color = number % 6, .dash = number / 6}, answers.pulls,
+        [](const VehiclePullRow& row) { return 100 * row.slip; },
+        [i](const VehiclePullRow& row) {
+          return row.vehicle ? 1e3 * row.vehicle->wheels[i].result.sinkage.value : not_a_number;
+        }));
   }
   return sheet;
 }
@@ -308,7 +296,7 @@ Json wheel_json(const VehicleWheel& about, const SteadyWheel& wheel, const Stead
 }
 
 Json limit_json(const VehicleAnswers& answers, const VehicleLimit& limit) {
-  Json json = {{"slope", limit.angle ? estimate_json(*limit.angle) : Json()}};
+  Json json = {{"slope", or_null(limit.angle)}};
   if (!limit.angle) return json;
   json["slip"] = limit.slip;
   json["beyond"] = failure_json(answers, limit.beyond);
@@ -345,11 +333,9 @@ Json steady_vehicle_json(const VehicleAnswers& answers) {
 
 Json map_json(const GoMap& map) {
   Json json = {{"samples", map.samples}, {"slopes", map.slopes}, {"headings", map.headings}};
-  json["chance"] = Json::array();
-  for (const auto& row : map.cells) {
-    Json& to = json["chance"].emplace_back(Json::array());
-    for (const GoCell& cell : row) to.push_back(estimate_json({cell.chance, cell.std_error}));
-  }
+  json["chance"] = list_of(map.cells, [](const std::vector<GoCell>& row) {
+    return list_of(row, [](const GoCell& cell) { return estimate_json({cell.chance, cell.std_error}); });
+  });
   return json;
 }
 
@@ -366,18 +352,16 @@ Json vehicle_json(const VehicleAnswers& answers) {
                           {"down", limit_json(answers, answers.down)},
                           {"across", limit_json(answers, answers.across)}};
   document["map"] = answers.map ? map_json(*answers.map) : Json();
-  document["pulls"] = Json::array();
-  for (const VehiclePullRow& row : answers.pulls) {
+  document["pulls"] = list_of(answers.pulls, [&](const VehiclePullRow& row) {
     Json json = {{"slip", row.slip}};
     json["pull"] = row.vehicle ? estimate_json({row.vehicle->pull, row.pull_error}) : Json();
     json["into_wheels"] = row.vehicle ? finite(row.vehicle->power.into_wheels) : Json();
     if (row.failure) json["failure"] = failure_json(answers, *row.failure);
-    document["pulls"].push_back(std::move(json));
-  }
+    return json;
+  });
   return document;
 }
 
-/// A row for each slip and wheel.
 std::string vehicle_csv(const VehicleAnswers& answers) {
   std::string text =
       "slip,pull_N,pull_se_N,into_wheels_W,wheel,wheel_load_N,wheel_slip,wheel_pull_N,wheel_torque_Nm,"
@@ -438,6 +422,127 @@ Report report_on(const VehicleAnswers& answers) {
   if (answers.failure) report.no_answer = "does not travel: " + failure_in_words(answers, *answers.failure);
   report.data = [&answers] { return vehicle_json(answers); };
   report.csv = [&answers] { return vehicle_csv(answers); };
+  return report;
+}
+
+// What a vehicle needs of a soft soil and what a soil leaves beyond it, as it is told; soilbin-mobility/1.
+
+namespace {
+
+using cone_index::Mobility;
+using cone_index::Passage;
+
+std::string kilopascals(const Estimate& pressure) { return number(pressure, 1e-3) + " kPa"; }
+
+std::string passes_in_words(const Passage& passage) { return passage.passes == 1 ? "1 pass" : "50 passes"; }
+
+/// "go; the rating cone index is 108 ± 30 kPa above the 191.6 kPa that the vehicle needs".
+std::vector<BackedSentence> verdicts_on(const Mobility& mobility) {
+  std::vector<BackedSentence> verdicts;
+  if (!mobility.passages) return verdicts;
+  for (const Passage& one : *mobility.passages)
+    verdicts.push_back(
+        {passes_in_words(one),
+         fmt::format("{}; the rating cone index is {} {} the {} that the vehicle needs", one.go ? "go" : "no go",
+                     kilopascals({std::abs(one.excess.value), one.excess.std_error}), one.go ? "above" : "below",
+                     kilopascals({one.needed, 0}))});
+  return verdicts;
+}
+
+Table needs_table(const Mobility& mobility) {
+  constexpr double psi = 6894.757293168361;
+  Table table{"", {"value", "kPa", "psi"}};
+  const auto add = [&](const char* name, double pressure) {
+    table.add({name, number(pressure / 1e3), number(pressure / psi)});
+  };
+  add("VCI1: rating cone index that 1 pass needs", mobility.index.one_pass);
+  add("VCI50: that 50 passes need", mobility.index.fifty_passes);
+  if (mobility.pressure) add("MMP: mean maximum pressure", mobility.pressure->value);
+  if (mobility.rating) add("RCI: rating cone index of the soil", mobility.rating->value);
+  return table;
+}
+
+Table factors_table(const Mobility& mobility) {
+  const cone_index::MobilityFactors& f = mobility.index.factors;
+  Table table{"", {"part", "value"}};
+  const std::pair<const char*, double> parts[] = {
+      {"CPF, contact pressure", f.contact_pressure},
+      {"WF, weight", f.weight},
+      {"TF, tire", f.tire},
+      {"GF, chains", f.grouser},
+      {"WLF, load a wheel", f.wheel_load},
+      {"CF, clearance", f.clearance},
+      {"EF, engine", f.engine},
+      {"TrF, transmission", f.transmission},
+      {"MI = (CPF WF/(TF GF) + WLF - CF) EF TrF", mobility.index.mobility_index},
+      {"DCF, deflection, on VCI1 alone", mobility.index.deflection_factor}};
+  for (const auto& [name, value] : parts) table.add({name, number(value)});
+  return table;
+}
+
+/// Where public sources disagree, or none could be read.
+std::vector<std::string> sources_in_words(const Mobility& mobility) {
+  std::vector<std::string> lines = {
+      "MI after FM 5-430-00-1 (1994), chapter 7, with WLF - CF added and TF below the line; some public codes "
+      "multiply, "
+      "or invert TF.",
+      "VCI1 with 3.74 in its last term, as Priddy and Willoughby (2006) print it; some codes have 2.14, which changes "
+      "it by 0.1 psi at MI = 20 and less above."};
+  if (mobility.pressure)
+    lines.push_back(
+        mobility.pressure->declared
+            ? fmt::format("MMP over deflection by diameter (Larminie 1992), with the K of {} that was given.",
+                          number(mobility.pressure->factor))
+            : fmt::format("MMP with Rowland's K for the driven axles, which belongs to deflection over section height; "
+                          "over the diameter it is {}. Both as commonly quoted.",
+                          number(mobility.pressure->factor)));
+  return lines;
+}
+
+Json mobility_json(const Mobility& mobility) {
+  const cone_index::VehicleConeIndex& index = mobility.index;
+  const cone_index::MobilityFactors& f = index.factors;
+  Json document = {{"format", "soilbin-mobility/1"},
+                   {"vehicle", mobility.vehicle.name},
+                   {"mobility_index", index.mobility_index},
+                   {"factors",
+                    {{"contact_pressure", f.contact_pressure},
+                     {"weight", f.weight},
+                     {"tire", f.tire},
+                     {"grouser", f.grouser},
+                     {"wheel_load", f.wheel_load},
+                     {"clearance", f.clearance},
+                     {"engine", f.engine},
+                     {"transmission", f.transmission},
+                     {"deflection", index.deflection_factor}}},
+                   {"vci1", index.one_pass},
+                   {"vci50", index.fifty_passes},
+                   {"mean_maximum_pressure", mobility.pressure ? Json(mobility.pressure->value) : Json()},
+                   {"mmp_factor", mobility.pressure ? Json(mobility.pressure->factor) : Json()},
+                   {"rating_cone_index", or_null(mobility.rating)}};
+  document["passages"] = Json::array();
+  if (mobility.passages)
+    for (const Passage& one : *mobility.passages)
+      document["passages"].push_back({{"passes", one.passes},
+                                      {"needed", one.needed},
+                                      {"excess", estimate_json(one.excess)},
+                                      {"go", one.go},
+                                      {"close", one.is_close()}});
+  return document;
+}
+
+}  // namespace
+
+Report report_on(const Mobility& mobility, const std::string& soil) {
+  const std::string name = mobility.vehicle.name.empty() ? "vehicle" : mobility.vehicle.name;
+  Report report{"Mobility: " + name, "Does the vehicle get through soft fine-grained soil?",
+                name + (soil.empty() ? "" : " on " + soil)};
+  report.add(Sentences(verdicts_on(mobility)));
+  report.add(WarningsHere());
+  report.add("Cone indices", needs_table(mobility));
+  report.add("Mobility index", factors_table(mobility));
+  report.add("Which source was taken", Items{sources_in_words(mobility)});
+  report.data = [&mobility] { return mobility_json(mobility); };
   return report;
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -183,7 +184,6 @@ inline constexpr const char* vehicle_case_format = "soilbin-vehicle-case/1";
 /// column and hint.
 VehicleCase parse_vehicle_case(const SourceText& source, const Library& library, const EffectVocabulary& effects);
 
-/// A wheel of a vehicle.
 struct VehicleWheel {
   std::string name{};  ///< "front left"
   std::size_t axle = 0;
@@ -198,5 +198,25 @@ std::vector<VehicleWheel> wheels_of(const VehicleCase& vehicle);
 
 /// Effects that the tires declare, as `estimate` takes them, and what is told of it. The effects are of the wheels.
 Doubts declare_tires(std::vector<VehicleWheel>& wheels, const TireLeftOut& left_out = {});
+
+// The numbers of a vehicle's wheels that have a standard deviation, soil and carcass pressures, as values that can be
+// moved: for standard errors and for the chance to go.
+
+/// A number of the wheels' scenarios that has a standard deviation.
+struct DoubtfulNumber {
+  double value = 0.0, sd = 0.0;  ///< [SI]
+  Range range{};
+  std::function<void(Scenario&, double)> set{};
+  std::string title{};  ///< for people: "friction angle"
+
+  /// The wheels with this number set to a value.
+  std::vector<VehicleWheel> in(std::vector<VehicleWheel> wheels, double to) const {
+    for (VehicleWheel& wheel : wheels) set(wheel.scenario, to);
+    return wheels;
+  }
+};
+
+/// Each once: the soil is one for all wheels, a carcass pressure one for all wheels with that tire.
+std::vector<DoubtfulNumber> doubtful_numbers(const std::vector<VehicleWheel>& wheels);
 
 }  // namespace soilbin::compare

@@ -1,13 +1,101 @@
 #include "compare/vehicle/vehicle_answers.hpp"
 
 #include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <functional>
 #include <utility>
 
-#include "compare/vehicle/doubtful_numbers.hpp"
+#include "compare/design/factor.hpp"
+#include "compare/vehicle/vehicle.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
+namespace {
+
+std::vector<double> degrees_up_to(double last, double step) {
+  std::vector<double> all;
+  for (int i = 0; i * step <= last; ++i) all.push_back(i * step * degree);
+  return all;
+}
+
+double standard_normal_at(double share) { return std::sqrt(2.0) * boost::math::erf_inv(2.0 * share - 1.0); }
+
+/// A drawn number held within its range; an open bound is kept away from by a thousandth of the way to the declared
+/// one.
+double held_within(const Range& range, double x, double declared) {
+  constexpr double away = 1e-3;
+  if (range.holds(x)) return x;
+  if (x > range.lower) return range.upper_open ? range.upper - away * (range.upper - declared) : range.upper;
+  return range.lower_open ? range.lower + away * (declared - range.lower) : range.lower;
+}
+
+bool goes(const SteadyVehicles& vehicles, const VehicleCondition& at) {
+  try {
+    vehicles.pulling(at);
+    return true;
+  } catch (const NoSolution&) {
+    return false;
+  }
+}
+
+/// How many of the slopes, from the first, it goes on: by halves.
+std::size_t slopes_gone(const SteadyVehicles& vehicles, const VehicleCondition& asked, double heading,
+                        const std::vector<double>& slopes) {
+  std::size_t gone = 0, beyond = slopes.size();
+  while (gone < beyond) {
+    const std::size_t middle = (gone + beyond) / 2;
+    if (goes(vehicles, heading_on(asked, slopes[middle], heading)))
+      gone = middle + 1;
+    else
+      beyond = middle;
+  }
+  return gone;
+}
+
+}  // namespace
+
+VehicleCondition heading_on(const VehicleCondition& asked, double slope, double heading) {
+  VehicleCondition at = asked;
+  at.slope = std::asin(std::sin(slope) * std::cos(heading));
+  at.cross_slope = std::asin(std::clamp(std::sin(slope) * std::sin(heading) / std::cos(at.slope), -1.0, 1.0));
+  constexpr double none = 1e-12;  // straight down is straight
+  if (std::abs(at.cross_slope) < none) at.cross_slope = 0.0;
+  if (std::abs(at.slope) < none) at.slope = 0.0;
+  return at;
+}
+
+GoMap go_map(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model, GoMapPlan plan) {
+  if (plan.samples < 1) throw InputError("a map needs one sample or more");
+  GoMap map;
+  map.slopes = plan.slopes.empty() ? degrees_up_to(35.0, 5.0) : plan.slopes;
+  map.headings = plan.headings.empty() ? degrees_up_to(180.0, 30.0) : plan.headings;
+  const std::vector<DoubtfulNumber> doubtful = doubtful_numbers(wheels);
+  map.samples = doubtful.empty() ? 1 : plan.samples;
+  const Eigen::MatrixXd drawn = latin_hypercube(map.samples, std::max(1, static_cast<int>(doubtful.size())), plan.seed);
+  map.cells.assign(map.slopes.size(), std::vector<GoCell>(map.headings.size()));
+  for (int sample = 0; sample < map.samples; ++sample) {
+    std::vector<VehicleWheel> changed = wheels;
+    for (std::size_t i = 0; i < doubtful.size(); ++i) {
+      const DoubtfulNumber& one = doubtful[i];
+      const double z = standard_normal_at(drawn(sample, static_cast<int>(i)));
+      changed = one.in(std::move(changed), held_within(one.range, one.value + one.sd * z, one.value));
+    }
+    const SteadyVehicles vehicles(question, changed, model);
+    for (std::size_t k = 0; k < map.headings.size(); ++k) {
+      const std::size_t gone = slopes_gone(vehicles, question.condition, map.headings[k], map.slopes);
+      for (std::size_t i = 0; i < gone; ++i) map.cells[i][k].chance += 1.0;  // a count, until all are drawn
+    }
+    if (plan.progress) plan.progress(static_cast<std::size_t>(sample) + 1, static_cast<std::size_t>(map.samples));
+  }
+  for (std::vector<GoCell>& row : map.cells)
+    for (GoCell& cell : row) {
+      cell.chance /= map.samples;
+      cell.std_error = std::sqrt(cell.chance * (1.0 - cell.chance) / map.samples);
+    }
+  return map;
+}
+
 namespace {
 
 constexpr double steepest_asked = 1.2;  // [rad] 69 deg
@@ -60,19 +148,19 @@ SteadyErrors errors_from(const Numbers& errors) {
 }
 
 /// Which way a slope is steep.
-enum class Way { up, down, across };
+enum class SlopeWay { up, down, across };
 
-VehicleCondition on(const VehicleCondition& asked, Way way, double angle) {
+VehicleCondition on(const VehicleCondition& asked, SlopeWay way, double angle) {
   VehicleCondition at = asked;
-  at.slope = way == Way::up ? angle : way == Way::down ? -angle : 0.0;
-  at.cross_slope = way == Way::across ? angle : 0.0;
+  at.slope = way == SlopeWay::up ? angle : way == SlopeWay::down ? -angle : 0.0;
+  at.cross_slope = way == SlopeWay::across ? angle : 0.0;
   return at;
 }
 
 VehicleLimit steepest(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model,
-                      Way way) {
+                      SlopeWay way) {
   const SteadyVehicles vehicles(question, wheels, model);
-  const bool braked = way == Way::down;
+  const bool braked = way == SlopeWay::down;
   const double sign = braked ? -1.0 : 1.0, none = -vehicles.weight();
   VehicleLimit limit;
   const auto spare = [&](double angle) {
@@ -86,7 +174,7 @@ VehicleLimit steepest(const VehicleCase& question, const std::vector<VehicleWhee
   };
   const double level = spare(0.0);
   double low = level >= 0.0 ? 0.0 : -steepest_asked, high = level >= 0.0 ? steepest_asked : 0.0;
-  if (way == Way::across && level < 0.0) return limit;
+  if (way == SlopeWay::across && level < 0.0) return limit;
   if (level < 0.0 && spare(low) < 0.0) return limit;
   if (level >= 0.0 && spare(high) >= 0.0) return limit;
   // By bisection: the spare pull ends at once where the vehicle tips over or slides.
@@ -130,12 +218,12 @@ VehicleLimit steepest(const VehicleCase& question, const std::vector<VehicleWhee
 
 std::array<VehicleLimit, 3> steepest_slopes(const VehicleCase& question, const std::vector<VehicleWheel>& wheels,
                                             const Model& model) {
-  return {steepest(question, wheels, model, Way::up), steepest(question, wheels, model, Way::down),
-          steepest(question, wheels, model, Way::across)};
+  return {steepest(question, wheels, model, SlopeWay::up), steepest(question, wheels, model, SlopeWay::down),
+          steepest(question, wheels, model, SlopeWay::across)};
 }
 
 VehicleLimit steepest_climb(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model) {
-  return steepest(question, wheels, model, Way::up);
+  return steepest(question, wheels, model, SlopeWay::up);
 }
 
 VehicleAnswers answers_of(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model) {
@@ -169,6 +257,61 @@ VehicleAnswers answers_of(const VehicleCase& question, const std::vector<Vehicle
   }
   const auto [up, down, across] = steepest_slopes(question, wheels, model);
   answers.up = up, answers.down = down, answers.across = across;
+  return answers;
+}
+
+namespace {
+
+MovedVehicleDrive::Side moved_drive(const VehicleCase& question, const std::vector<VehicleWheel>& wheels,
+                                    const DoubtfulNumber& number, double value) {
+  MovedVehicleDrive::Side side{value};
+  try {
+    const VehicleDriveRecord record = drive_vehicle(question, number.in(wheels, value), 1);
+    side.end = record.end, side.end_time = record.end_time, side.travelled = record.samples.back().travelled;
+  } catch (const NoSolution&) {  // it does not stand
+  }
+  return side;
+}
+
+/// Standard error of a number of the drives' ends, by half of what lies between both sides of each value, as wide as
+/// its standard deviation; none where a value has no drive on a side.
+std::optional<double> error_over(const std::vector<MovedVehicleDrive>& moved, double MovedVehicleDrive::Side::*number) {
+  double variance = 0.0;
+  for (const MovedVehicleDrive& one : moved) {
+    if (!one.lower.end || !one.higher.end) return {};
+    const double width = one.higher.value - one.lower.value;
+    if (width > 0.0) variance += std::pow(one.sd * (one.higher.*number - one.lower.*number) / width, 2);
+  }
+  return std::sqrt(variance);
+}
+
+}  // namespace
+
+DrivenAnswers driven_answers(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model,
+                             int samples, const bekker_wong::DriveProgress& progress) {
+  DrivenAnswers answers{question, wheels};
+  answers.up = steepest_climb(question, wheels, model);
+  try {
+    answers.record = drive_vehicle(question, wheels, samples, {}, progress);
+  } catch (const VehicleGaveOut& error) {
+    answers.failure = {error.why(), error.wheel(), error.what()};
+    return answers;
+  }
+  for (const DoubtfulNumber& number : doubtful_numbers(wheels)) {
+    MovedVehicleDrive moved{number.title, number.value, number.sd};
+    const Neighbours beside = neighbours(number.value, number.sd, number.range);
+    moved.lower = moved_drive(question, wheels, number, beside.below);
+    moved.higher = moved_drive(question, wheels, number, beside.above);
+    answers.moved.push_back(moved);
+    if (progress) progress(answers.record->end_time, question.drive.duration);
+  }
+  if (answers.moved.empty()) return answers;
+  answers.travelled_error = error_over(answers.moved, &MovedVehicleDrive::Side::travelled);
+  const auto ends_alike = [&](const MovedVehicleDrive& one) {
+    return one.lower.end == answers.record->end && one.higher.end == answers.record->end;
+  };
+  if (std::ranges::all_of(answers.moved, ends_alike))
+    answers.end_time_error = error_over(answers.moved, &MovedVehicleDrive::Side::end_time);
   return answers;
 }
 

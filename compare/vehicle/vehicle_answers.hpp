@@ -7,14 +7,53 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "compare/vehicle/go_map.hpp"
 #include "compare/vehicle/steady_vehicle.hpp"
+#include "compare/vehicle/vehicle_drive.hpp"
 
 namespace soilbin::compare {
+
+// The chance that a vehicle goes, over slope and heading: on how many soils, drawn by their standard deviations, it has
+// a steady state.
+//
+//   const GoMap map = go_map(question, wheels, model, {.samples = 100});
+//   map.cells[2][0].chance   // on the third slope, straight up
+
+struct GoMapPlan {
+  std::vector<double> slopes{};    ///< of the ground [rad], rising; empty: 0, 5 .. 35 deg
+  std::vector<double> headings{};  ///< from straight up to the right [rad]; empty: 0, 30 .. 180 deg
+  int samples = 50;
+  std::uint64_t seed = 1;
+  std::function<void(std::size_t done, std::size_t total)> progress{};
+};
+
+struct GoCell {
+  double chance = 0.0;
+  double std_error = 0.0;  ///< of so many samples
+};
+
+struct GoMap {
+  std::vector<double> slopes{}, headings{};
+  std::vector<std::vector<GoCell>> cells{};  ///< a row a slope
+  int samples = 0;
+};
+
+/// The condition of a heading on a slope: the slope along its travel and across it, sin(a) = sin(S) cos(h), cos(a)
+/// sin(b) = sin(S) sin(h).
+VehicleCondition heading_on(const VehicleCondition& asked, double slope, double heading);
+
+/// Monte Carlo over a Latin hypercube of the soil's values and the carcass pressures, normal and independent, held
+/// within their ranges. A soil on which the vehicle fails on one slope counts as failed on every steeper one with that
+/// heading. Slope and cross slope of the question's condition are not read.
+GoMap go_map(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model,
+             GoMapPlan plan = {});
+
+// The steady state, pull against slip, limits.
 
 /// Why there is no steady vehicle.
 struct VehicleFailure {
@@ -71,5 +110,39 @@ std::array<VehicleLimit, 3> steepest_slopes(const VehicleCase& question, const s
 
 /// The steepest one straight up alone.
 VehicleLimit steepest_climb(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model);
+
+// What came of a vehicle driven in time, with its errors and what it climbs in a steady state.
+//
+//   const DrivenAnswers answers = driven_answers(question, wheels, bekker_wong::BekkerWong({false, false}));
+//   answers.record->end, answers.travelled_error
+
+/// The drive with one value of the soil or of a carcass moved by its standard deviation, or as far as its bound.
+struct MovedVehicleDrive {
+  struct Side {
+    double value = 0.0;             ///< [SI]
+    std::optional<DriveEnd> end{};  ///< none: the soil can't hold it at its start
+    double end_time = 0.0, travelled = 0.0;
+  };
+  std::string title;
+  double value = 0.0, sd = 0.0;
+  Side lower{}, higher{};
+};
+
+struct DrivenAnswers {
+  VehicleCase question{};
+  std::vector<VehicleWheel> wheels{};
+  std::optional<VehicleDriveRecord> record{};
+  std::optional<VehicleFailure> failure{};  ///< why it does not stand at its start; then there is no record
+  VehicleLimit up{};                        ///< what it climbs in a steady state, with the condition's pull
+  std::vector<MovedVehicleDrive> moved{};
+  std::optional<double> travelled_error{};  ///< standard error of the way to the end [m]; none: a value without a drive
+  std::optional<double> end_time_error{};   ///< [s]; none too where some of the drives end in another way
+};
+
+/// The drive, and again for its errors: each doubtful value a standard deviation lower and higher, all taken as
+/// independent; soils that begin on the way keep their values. Throws what drive_vehicle throws, but for a vehicle that
+/// does not stand.
+DrivenAnswers driven_answers(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model,
+                             int samples = 400, const bekker_wong::DriveProgress& progress = {});
 
 }  // namespace soilbin::compare

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "bekker_wong/gsl.hpp"
-#include "compare/vehicle/standing.hpp"
 #include "compare/vehicle/steady_vehicle.hpp"
 #include "scenario/soil.hpp"
 

@@ -24,7 +24,6 @@ struct DrivenAxle {
   double forward = 0.0;          ///< force of the soil along travel [N]
 };
 
-/// The vehicle at one time.
 struct VehicleDriveSample {
   double time = 0.0;
   double travelled = 0.0;     ///< x of its centre of gravity along the ground [m]

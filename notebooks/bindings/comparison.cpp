@@ -1,7 +1,7 @@
 // compare/discrepancy: sides, differences, and what counts of them.
 #include "compare/discrepancy/comparison.hpp"
 
-#include "compare/telling/comparison_words.hpp"
+#include "compare/telling/comparison_report.hpp"
 #include "notebooks/bindings/scenario.hpp"
 
 namespace soilbin::python {

@@ -4,13 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "compare/doubts/declared_doubts.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/experiments/force_table_file.hpp"
-#include "compare/export/slip_map.hpp"
 #include "compare/export/wheel_fmu.hpp"
+#include "compare/export/wheel_slip.hpp"
 #include "compare/report/json_fields.hpp"
-#include "compare/telling/export_reports.hpp"
 #include "compare/telling/reports.hpp"
 #include "notebooks/bindings/scenario.hpp"
 #include "scenario/atomic_file.hpp"

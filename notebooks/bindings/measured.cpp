@@ -3,7 +3,6 @@
 
 #include "compare/doubts/doubts.hpp"
 #include "compare/measured/campaign.hpp"
-#include "compare/measured/channels.hpp"
 #include "compare/sweep/prediction.hpp"
 #include "notebooks/bindings/bindings.hpp"
 

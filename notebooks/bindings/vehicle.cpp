@@ -7,7 +7,7 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/telling/reports.hpp"
-#include "compare/vehicle/driven_answers.hpp"
+#include "compare/vehicle/vehicle_answers.hpp"
 #include "compare/vehicle/vehicle_doubts.hpp"
 #include "notebooks/bindings/fields.hpp"
 #include "notebooks/bindings/scenario.hpp"

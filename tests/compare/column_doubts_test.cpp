@@ -1,5 +1,4 @@
 // Measured columns that look mistaken: what is told, at which header, and that models which are only wrong raise none.
-#include "compare/doubts/column_doubts.hpp"
 
 #include <gmock/gmock.h>
 

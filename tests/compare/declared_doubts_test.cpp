@@ -1,5 +1,4 @@
 // What is doubtful in a soil and a wheel by themselves, and that ordinary ones raise no doubt.
-#include "compare/doubts/declared_doubts.hpp"
 
 #include <gmock/gmock.h>
 

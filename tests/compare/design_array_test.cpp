@@ -8,9 +8,7 @@
 
 #include "bekker_wong/gsl.hpp"
 #include "compare/design/factor.hpp"
-#include "compare/design/galois_field.hpp"
-#include "compare/design/level_effects.hpp"
-#include "compare/design/space_filling.hpp"
+#include "compare/design/orthogonal_array.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "compare/design/factor.hpp"
 #include "compare/design/gaussian_process.hpp"
-#include "compare/design/space_filling.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -6,11 +6,9 @@
 #include <numbers>
 
 #include "compare/comparison_fixture.hpp"
-#include "compare/discrepancy/causes.hpp"
+#include "compare/discrepancy/comparison.hpp"
 #include "compare/doubt_matchers.hpp"
-#include "compare/telling/comparison_sheets.hpp"
-#include "compare/telling/comparison_tables.hpp"
-#include "compare/telling/comparison_words.hpp"
+#include "compare/telling/comparison_report.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

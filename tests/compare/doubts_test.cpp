@@ -13,7 +13,6 @@
 #include "compare/doubt_matchers.hpp"
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/doubts/grain_resolution.hpp"
-#include "compare/doubts/unused_inputs.hpp"
 #include "compare/modelled_campaign.hpp"
 #include "tests/fixtures.hpp"
 

@@ -1,5 +1,4 @@
 // What the standard deviations of the soil's values do to a drive.
-#include "compare/drives/drive_errors.hpp"
 
 #include <gmock/gmock.h>
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "compare/design/space_filling.hpp"
+#include "compare/design/factor.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 

@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "compare/comparison_fixture.hpp"
-#include "compare/failure_map/learned_map.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"

@@ -11,7 +11,6 @@
 #include "bekker_wong/effect_vocabulary.hpp"
 #include "compare/attribution/base_fit.hpp"
 #include "compare/fit/bounded_fit.hpp"
-#include "compare/fit/descent.hpp"
 #include "compare/loop_fixture.hpp"
 #include "scenario/case.hpp"
 #include "scenario/traction_channels.hpp"

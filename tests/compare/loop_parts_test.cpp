@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "compare/attribution/base_fit.hpp"
-#include "compare/attribution/detection.hpp"
+#include "compare/attribution/choice.hpp"
 #include "compare/attribution/predictive_gain.hpp"
 #include "compare/attribution/signatures.hpp"
 #include "compare/attribution/unnamed.hpp"

@@ -13,7 +13,7 @@
 
 #include "bekker_wong/gsl.hpp"
 #include "compare/doubt_matchers.hpp"
-#include "compare/doubts/plate_doubts.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/telling/reports.hpp"
 #include "tests/scenario/refusal.hpp"

@@ -6,7 +6,7 @@
 
 #include "bekker_wong/gsl.hpp"
 #include "compare/comparison_fixture.hpp"
-#include "compare/discrepancy/rerun_noise.hpp"
+#include "compare/discrepancy/side.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/yawed_frames.hpp"
 

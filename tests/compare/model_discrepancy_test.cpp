@@ -1,6 +1,4 @@
 // The loop's second reading: a base model whose form isn't the soil's, and an effect beside that.
-#include "compare/attribution/model_discrepancy.hpp"
-
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "compare/attribution/candidates.hpp"
 #include "compare/loop_fixture.hpp"
 #include "compare/telling/loop_report.hpp"
 

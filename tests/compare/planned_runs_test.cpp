@@ -1,4 +1,6 @@
 // A designed test: the shapes' distances by hand, what every plan must vary, what no plan may fall below.
+#include "compare/test_design/planned_runs.hpp"
+
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -8,7 +10,6 @@
 
 #include "compare/loop_fixture.hpp"
 #include "compare/measured/condition_views.hpp"
-#include "compare/test_design/planned_runs_words.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

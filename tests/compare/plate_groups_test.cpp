@@ -11,7 +11,7 @@
 #include "bekker_wong/gsl.hpp"
 #include "compare/bevameter/measured_shear.hpp"
 #include "compare/doubt_matchers.hpp"
-#include "compare/doubts/plate_doubts.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/case.hpp"

@@ -1,12 +1,11 @@
 // Runs that lie near each other taken as one: what is kept of them, and what is not lost.
-#include "compare/fit/pooled_runs.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
 #include "compare/attribution/candidates.hpp"
+#include "compare/fit/fitted_model.hpp"
 #include "compare/loop_fixture.hpp"
 
 namespace soilbin::compare {

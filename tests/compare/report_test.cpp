@@ -13,7 +13,7 @@
 #include "compare/report/number_text.hpp"
 #include "compare/report/plot.hpp"
 #include "compare/report/plot_panel.hpp"
-#include "compare/sweep/model_names.hpp"
+#include "compare/sweep/answers.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
@@ -93,16 +93,14 @@ TEST(Svg, ALegendEntryForALabel) {
 }
 
 TEST(Page, EscapesAndClosesWhatItOpens) {
-  Page page("Title <1>", "below");
-  page.summary({{"Name", "text & more"}, {"", "plain"}});
-  page.section("First");
-  page.section("Second");
-  page.figures_at_a_glance({{"4 N", "pull"}});
-  page.list({"<b>"});
-  page.table({"caption", {"a", "b"}, {}, {{"x<y", "1"}}});
-  page.folded("more", [&] { page.code("soilbin run <study>"); });
-  page.figure(Sheet{"", {Plot{"a", {}, {}, {line("s", {1, 2})}}}, Palette::ordered}, "caption");
-  const std::string whole = page.html(), html = whole.substr(0, whole.find("<script"));
+  Report report{"Title <1>", "below"};
+  report.add(Sentences(std::vector<BackedSentence>{{"Name", "text & more"}, {"", "plain"}}));
+  report.add("First", KeyFigures{{{"4 N", "pull"}}});
+  report.add("Second", Items{{"<b>"}});
+  report.add(Table{"caption", {"a", "b"}, {}, {{"x<y", "1"}}});
+  report.add(Fold{"more", [] { return std::vector<ReportPart>{{Code{"soilbin run <study>"}}}; }});
+  report.add(Figure(Sheet{"", {Plot{"a", {}, {}, {line("s", {1, 2})}}}, Palette::ordered}, "caption"));
+  const std::string whole = page_of(report, {}), html = whole.substr(0, whole.find("<script"));
   for (const char* tag : {"div", "table", "details", "figure", "ul", "svg", "main", "p", "h2"})
     EXPECT_EQ(count(html, std::string("<") + tag + ">") + count(html, std::string("<") + tag + " "),
               count(html, std::string("</") + tag + ">"))
@@ -115,18 +113,18 @@ TEST(Page, EscapesAndClosesWhatItOpens) {
 // A card says what its page says of itself, and the way to it from the page that links.
 TEST(Page, ACardIsTakenFromThePageItself) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("soilbin-card-{}", ::getpid());
-  Page page("A <page>", "below");
-  page.summary({{"Name", "It pulls 4 N & more."}, {"", "Second."}});
-  page.figure(Sheet{"", {Plot{"first", {}, {}, {line("s", {1, 2})}}}, Palette::ordered}, "caption");
-  write_file_atomically(folder / "sub" / "page.html", page.html());
+  Report report{"A <page>", "below"};
+  report.add(Sentences(std::vector<BackedSentence>{{"Name", "It pulls 4 N & more."}, {"", "Second."}}));
+  report.add(Figure(Sheet{"", {Plot{"first", {}, {}, {line("s", {1, 2})}}}, Palette::ordered}, "caption"));
+  write_file_atomically(folder / "sub" / "page.html", page_of(report, {}));
   const PageCard card = page_card(folder / "sub" / "page.html", folder / "index.html");
   EXPECT_EQ(card.href, "sub/page.html");
   EXPECT_EQ(card.title, "A &lt;page&gt;");
   EXPECT_EQ(card.line, "It pulls 4 N &amp; more.");
   EXPECT_THAT(card.drawing, AllOf(StartsWith("<svg class=\"plot\""), HasSubstr("first"), EndsWith("</svg>")));
-  Page start("start", "");
-  start.cards({card});
-  EXPECT_THAT(start.html(), HasSubstr("<a class=\"card\" href=\"sub/page.html\"><svg"));
+  Report start{"start", ""};
+  start.add(Cards{{card}});
+  EXPECT_THAT(page_of(start, {}), HasSubstr("<a class=\"card\" href=\"sub/page.html\"><svg"));
   write_file_atomically(folder / "other.html", "<html></html>");
   EXPECT_THROW(page_card(folder / "other.html", folder / "index.html"), InputError);
   EXPECT_THROW(page_card(folder / "none.html", folder / "index.html"), InputError);
@@ -136,9 +134,9 @@ TEST(Page, ACardIsTakenFromThePageItself) {
 TEST(Page, ACardsLineEndsAtAWord) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("soilbin-card-line-{}", ::getpid());
   const auto line_of = [&](const std::string& text) {
-    Page page("title", "below");
-    page.summary({{"", text}});
-    write_file_atomically(folder / "page.html", page.html());
+    Report report{"title", "below"};
+    report.add(Sentences(std::vector{text}));
+    write_file_atomically(folder / "page.html", page_of(report, {}));
     return page_card(folder / "page.html", folder / "index.html").line;
   };
   std::string words;
@@ -152,11 +150,11 @@ TEST(Page, ACardsLineEndsAtAWord) {
 
 TEST(Page, ACardOfAHeatMapShowsIt) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("soilbin-card-heat-{}", ::getpid());
-  Page page("title", "below");
+  Report report{"title", "below"};
   HeatMap map;
   map.title = "where", map.x = {"1"}, map.y = {"2"}, map.cells = {{{3.0, "+3", "three", true}}};
-  page.heat_maps({heat_map_svg(map)}, "caption");
-  write_file_atomically(folder / "page.html", page.html());
+  report.add(Drawings{{heat_map_svg(map)}, "caption", "", true});
+  write_file_atomically(folder / "page.html", page_of(report, {}));
   EXPECT_THAT(page_card(folder / "page.html", folder / "index.html").drawing, HasSubstr("where"));
   fs::remove_all(folder);
 }

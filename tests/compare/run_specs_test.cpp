@@ -1,11 +1,10 @@
 // A study's runs as a list: one order, whole in its shards.
-#include "compare/recorded/run_specs.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
 
+#include "compare/recorded/run_store.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

@@ -11,7 +11,6 @@
 #include <set>
 
 #include "bekker_wong/effect_vocabulary.hpp"
-#include "compare/recorded/run_specs.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/case.hpp"
 #include "scenario/errors.hpp"

@@ -1,7 +1,5 @@
 // Soils as Gazebo's LookupWheelSlip reads them: the file is decoded and looked up as the plugin does, and each place
 // gives the compliances that were fitted for its soil.
-#include "compare/export/slip_map.hpp"
-
 #include <gmock/gmock.h>
 #include <zlib.h>
 
@@ -12,7 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "compare/telling/export_reports.hpp"
+#include "compare/export/wheel_slip.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

@@ -12,7 +12,6 @@
 #include "bekker_wong/effect_vocabulary.hpp"
 #include "compare/doubt_matchers.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/doubts/log_signs.hpp"
 #include "compare/measured/stretches.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/library.hpp"

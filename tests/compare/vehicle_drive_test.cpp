@@ -11,7 +11,6 @@
 #include "bekker_wong/effect.hpp"
 #include "bekker_wong/gsl.hpp"
 #include "bekker_wong/model.hpp"
-#include "compare/vehicle/standing.hpp"
 #include "compare/vehicle/steady_vehicle.hpp"
 #include "compare/vehicle/vehicle_answers.hpp"
 #include "scenario/yawed_frames.hpp"

@@ -17,7 +17,7 @@
 
 #include "bekker_wong/transient/driving.hpp"
 #include "compare/rover_fixture.hpp"
-#include "compare/telling/export_reports.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

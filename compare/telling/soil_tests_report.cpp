@@ -1,18 +1,23 @@
-// What measured plate tests gave, as it is told; soilbin-plates/1.
+// What tests of a soil gave, as it is told: measured plates and shear, and the virtual bevameter.
+#include <fmt/core.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "compare/bevameter/bevameter.hpp"
 #include "compare/bevameter/measured_plates.hpp"
+#include "compare/bevameter/measured_shear.hpp"
 #include "compare/bevameter/plate_groups.hpp"
+#include "compare/experiments/virtual_bevameter.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/telling/reports.hpp"
 #include "resistive_force/response.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/quantity.hpp"
+#include "scenario/soil.hpp"
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
@@ -42,25 +47,18 @@ Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFi
     double deepest = 0.0;
     for (const MeasuredPlate& measured : plates) {
       if (measured.curve.radius != fit.radii[k] || is_aside(measured)) continue;
-      Series points{.label = plate + ", measured", .mark = Mark::points};
-      points.color = static_cast<int>(k);
+      Series points{.label = plate + ", measured", .mark = Mark::points, .color = static_cast<int>(k)};
       const PlateCurve used =
           within(readings_of(measured.curve, loading_curve(measured.curve).readings), {fit.lowest, fit.highest});
       add(points, used, everywhere, everywhere);
       deepest = std::max(deepest, *std::ranges::max_element(used.sinkage));
       plot.series.push_back(std::move(points));
     }
-    Series line{.label = plate + ", Bekker's form"};
-    line.color = static_cast<int>(k);
-    for (int i = 0; i <= 100; ++i) {
-      const double z = deepest * i / 100;
-      line.x.push_back(1e3 * z), line.y.push_back(1e-3 * bekkers_form(fit, fit.radii[k], z));
-    }
     most = std::max(most, deepest);
-    plot.series.push_back(std::move(line));
+    plot.series.push_back(fitted_curve(plate + ", Bekker's form", static_cast<int>(k), deepest,
+                                       [&](double z) { return 1e-3 * bekkers_form(fit, fit.radii[k], z); }));
   }
-  Series aside{.label = "set aside", .mark = Mark::points};
-  aside.color = static_cast<int>(fit.radii.size());
+  Series aside{.label = "set aside", .mark = Mark::points, .color = static_cast<int>(fit.radii.size())};
   for (const MeasuredPlate& measured : plates) {
     std::vector<std::size_t> places;
     for (const PlateReadingsAside& one : fit.aside)
@@ -73,7 +71,6 @@ Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFi
   return {title, {plot}, Palette::named};
 }
 
-/// A value of the fit, as soils name it.
 struct NamedValue {
   const SoilParameter& parameter;
   const PlateValue& value;
@@ -183,14 +180,12 @@ std::vector<std::string> aside_in_words(const MeasuredPlatesFit& fit) {
   return sentences;
 }
 
-/// A sentence for each test that the others disown.
 std::vector<std::string> apart_in_words(const MeasuredPlatesFit& fit) {
   std::vector<std::string> sentences;
   for (const PlateTestApart& one : fit.apart) sentences.push_back(capital(in_words(one)));
   return sentences;
 }
 
-/// soilbin-plates/1
 Json plates_json(const MeasuredPlatesFit& fit, std::size_t tests) {
   Json document = {{"format", "soilbin-plates/1"}, {"tests", tests}};
   for (const auto& [p, value] : plate_values(fit)) {
@@ -222,25 +217,24 @@ Json plates_json(const MeasuredPlatesFit& fit, std::size_t tests) {
     document["k_c"] = nullptr, document["k_phi"] = nullptr;
   }
   document["readings"] = fit.readings;
-  document["set_aside"] = Json::array();
-  for (const PlateReadingsAside& one : fit.aside) {
+  document["set_aside"] = list_of(fit.aside, [](const PlateReadingsAside& one) {
     Json aside = {{"test", one.test},
                   {"radius", one.radius},
                   {"why", word(one.readings.why)},
                   {"readings", one.readings.readings.size()},
                   {"lines", one.lines}};
     if (one.readings.unloading_stiffness) aside["unloading_stiffness"] = finite(*one.readings.unloading_stiffness);
-    document["set_aside"].push_back(std::move(aside));
-  }
-  document["disagreeing_tests"] = Json::array();
-  for (const PlateTestApart& one : fit.apart)
-    document["disagreeing_tests"].push_back({{"test", one.test},
-                                             {"radius", one.radius},
-                                             {"first_line", one.first_line},
-                                             {"last_line", one.last_line},
-                                             {"factor", finite(one.apart.factor)},
-                                             {"as_if", one.apart.unit},
-                                             {"set_aside", one.apart.set_aside}});
+    return aside;
+  });
+  document["disagreeing_tests"] = list_of(fit.apart, [](const PlateTestApart& one) {
+    return Json{{"test", one.test},
+                {"radius", one.radius},
+                {"first_line", one.first_line},
+                {"last_line", one.last_line},
+                {"factor", finite(one.apart.factor)},
+                {"as_if", one.apart.unit},
+                {"set_aside", one.apart.set_aside}};
+  });
   document["with_all_kept"] = nullptr;
   if (fit.kept)
     document["with_all_kept"] = {
@@ -248,7 +242,6 @@ Json plates_json(const MeasuredPlatesFit& fit, std::size_t tests) {
   return document;
 }
 
-/// The three values with the parts of their errors.
 Table values_table(const MeasuredPlatesFit& fit) {
   Table table{"", {"value", "fit", "between tests", "between low and high pressures", "of readings"}};
   for (const auto& [p, value] : plate_values(fit)) {
@@ -414,7 +407,6 @@ std::string soil_file_lines(const PlateGroups& groups, const std::string& source
   return text;
 }
 
-/// Readings and Bekker's form of each group.
 Sheet groups_sheet(const PlateGroups& groups, const std::string& title) {
   Plot plot{"Pressure [kPa]", {"sinkage [mm]", 0.0}, {"", 0.0}};
   int color = 0;
@@ -442,6 +434,204 @@ Report report_on(const PlateGroups& groups, const std::string& file) {
   report.add("Pressure over sinkage", Figure{report.sheet, "Points: readings; lines: Bekker's form."});
   if (!groups.beds.empty()) report.add("For a soil file", Code{soil_file_lines(groups, source)});
   report.data = [&groups] { return groups_json(groups); };
+  return report;
+}
+
+namespace {
+
+/// Shear stress over displacement: every reading and Janosi's curve of each test, as far as it was fitted.
+Sheet shear_sheet(std::span<const MeasuredShear> tests, const MeasuredShearFit& fit, const std::string& title) {
+  Plot plot{"Shear stress [kPa]", {"displacement [mm]", 0.0}, {"", 0.0}};
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    const ShearCurve& curve = tests[k].curve;
+    const std::string name = fmt::format("{} kPa", number(curve.normal_stress / 1e3, 3));
+    Series points{.label = name + ", measured", .mark = Mark::points, .color = static_cast<int>(k)};
+    const std::size_t every = curve.displacement.size() / 60 + 1;  // more points than these hide each other
+    for (std::size_t i = 0; i < curve.displacement.size(); i += every)
+      points.x.push_back(1e3 * curve.displacement[i]), points.y.push_back(1e-3 * curve.shear_stress[i]);
+    plot.series.push_back(std::move(points));
+    const ShearTestFit& one = fit.tests[k];
+    const double to = one.residual ? one.peak_at : *std::ranges::max_element(curve.displacement);
+    plot.series.push_back(fitted_curve(name + ", Janosi's curve", static_cast<int>(k), to, [&](double j) {
+      return -1e-3 * one.janosi.shear_max * std::expm1(-j / one.janosi.modulus);
+    }));
+  }
+  return {title, {plot}, Palette::named};
+}
+
+struct NamedShearValue {
+  const SoilParameter& parameter;
+  const Estimate& value;
+};
+
+std::vector<NamedShearValue> shear_values(const MeasuredShearFit& fit) {
+  return {{soil_parameter("cohesion"), fit.cohesion},
+          {soil_parameter("friction_angle"), fit.friction_angle},
+          {soil_parameter("shear_modulus"), fit.shear_modulus}};
+}
+
+Table shear_values_table(const MeasuredShearFit& fit) {
+  Table table{"", {"value", "fit"}};
+  for (const auto& [p, value] : shear_values(fit)) {
+    if (fit.one_stress && std::string_view(p.name) == "cohesion") continue;
+    table.add({heading(p.symbol, p.unit), number(value, p.per_si)});
+  }
+  if (fit.residual_angle) table.add({"phi, residual [deg]", number(*fit.residual_angle, 1 / degree)});
+  return table;
+}
+
+Table shear_tests_table(const MeasuredShearFit& fit, std::span<const MeasuredShear> tests) {
+  Table table{"",
+              {"test", "normal stress [kPa]", "tau_max [kPa]", "K [mm]", "missed [%]", "peak [kPa]", "at [mm]",
+               "residual [kPa]"}};
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    const ShearTestFit& one = fit.tests[k];
+    table.add({tests[k].test.empty() ? "-" : tests[k].test, number(tests[k].curve.normal_stress / 1e3),
+               number(one.janosi.shear_max / 1e3), number(1e3 * one.janosi.modulus),
+               number(100 * one.janosi.rms / one.janosi.shear_max, 2), number(one.peak / 1e3),
+               number(1e3 * one.peak_at), one.residual ? number(*one.residual / 1e3) : "-"});
+  }
+  return table;
+}
+
+std::string shear_lines(const MeasuredShearFit& fit, const std::string& source) {
+  std::string text = "For campaign.yaml or a soil file:\n\n";
+  for (const auto& [p, value] : shear_values(fit)) {
+    const std::string unit = unit_behind(p.unit);
+    const bool presumed = fit.one_stress && std::string_view(p.name) == "cohesion";
+    text += fmt::format("  {}: {{value: {}{}, sd: {}{}, source: {}}}\n", p.name, number(value.value * p.per_si), unit,
+                        number(value.std_error * p.per_si, 2), unit,
+                        yaml_scalar(presumed ? source + "; presumed: one normal stress" : source));
+  }
+  return text;
+}
+
+std::vector<std::string> words_on_shear(const MeasuredShearFit& fit) {
+  std::vector<std::string> words = {
+      "tau = tau_max (1 - exp(-j/K)) (Janosi and Hanamoto 1961); c and phi: a line through tau_max over the normal "
+      "stress.",
+      "± of c and phi: the tests' scatter about that line; of K: of one more test."};
+  if (fit.residual_angle)
+    words.emplace_back("Where the stress falls again behind its peak, the curve is fitted up to the peak.");
+  if (fit.cohesion_as_fitted < 0.0)
+    words.push_back(fmt::format("The line has c = {} kPa: c is 0, and phi of a line through 0.",
+                                number(fit.cohesion_as_fitted / 1e3, 3)));
+  return words;
+}
+
+Json shear_json(const MeasuredShearFit& fit, std::span<const MeasuredShear> tests) {
+  Json document = {{"format", "soilbin-shear/1"}, {"one_normal_stress", fit.one_stress}};
+  for (const auto& [p, value] : shear_values(fit)) document[p.name] = estimate_json(value);
+  document["cohesion_as_fitted"] = fit.cohesion_as_fitted;
+  document["residual_angle"] = or_null(fit.residual_angle);
+  document["tests"] = Json::array();
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    const ShearTestFit& one = fit.tests[k];
+    document["tests"].push_back({{"test", tests[k].test},
+                                 {"normal_stress", tests[k].curve.normal_stress},
+                                 {"readings", tests[k].curve.displacement.size()},
+                                 {"shear_max", one.janosi.shear_max},
+                                 {"shear_modulus", one.janosi.modulus},
+                                 {"rms", one.janosi.rms},
+                                 {"peak", one.peak},
+                                 {"peak_at", one.peak_at},
+                                 {"residual", or_null(one.residual)}});
+  }
+  return document;
+}
+
+}  // namespace
+
+Report report_on(const MeasuredShearFit& fit, std::span<const MeasuredShear> tests, const std::string& file) {
+  Report report{file, "Measured shear tests and Janosi's curve.", counted(tests.size(), "test")};
+  report.add("Values", shear_values_table(fit));
+  report.add(Sentences(words_on_shear(fit)));
+  report.sheet = drawn_once([&fit, tests, file] { return shear_sheet(tests, fit, file); });
+  report.add("Shear stress over displacement", Figure{report.sheet, "Points: readings; lines: Janosi's curve."});
+  report.add("Test by test", shear_tests_table(fit, tests));
+  report.add("For a soil file", Code{shear_lines(fit, "soilbin shear " + file)});
+  report.data = [&fit, tests] { return shear_json(fit, tests); };
+  return report;
+}
+
+// What a virtual bevameter found in a soil's grains, as it is told; soilbin-bevameter/1.
+
+namespace {
+
+/// Pressure against sinkage of each plate and shear stress against displacement under each normal stress. Plates of one
+/// radius, and rings under nearly one stress, share a colour.
+Sheet bevameter_sheet(const std::string& title, std::span<const PlateSet> plates, std::span<const ShearCurve> shear,
+                      const BevameterFit& fit) {
+  constexpr double kilo = 1e-3, milli = 1e3;
+  Sheet sheet{title,
+              {{"Pressure under plates [kPa]", {"sinkage [mm]", 0.0, {}}, {{}, 0.0, {}}, {}},
+               {"Shear stress under rings [kPa]", {"displacement [mm]", 0.0, {}}, {{}, 0.0, {}}, {}}}};
+  std::vector<double> seen;  // radii, then stresses: their place is the colour
+  const auto color_of_value = [&seen](double value) {
+    const auto alike = [&](double other) { return std::abs(value - other) < 0.1 * other; };
+    const auto place = std::ranges::find_if(seen, alike);
+    const auto color = static_cast<int>(place - seen.begin());
+    if (place == seen.end()) seen.push_back(value);
+    return color;
+  };
+  const auto add = [](Plot& plot, const std::string& label, int color, const std::vector<double>& x,
+                      const std::vector<double>& y, const auto& fitted) {
+    Series points{.label = label, .mark = Mark::points, .color = color};
+    for (std::size_t k = 0; k < x.size(); ++k) points.x.push_back(milli * x[k]), points.y.push_back(kilo * y[k]);
+    plot.series.push_back(std::move(points));
+    plot.series.push_back(over_samples(
+        {.label = label, .color = color}, x, [](double at) { return milli * at; },
+        [&](double at) { return kilo * fitted(at); }));
+  };
+  for (const PlateSet& set : plates)
+    for (const bekker_wong::PlateCurve& plate : set) {
+      const double modulus = fit.soil.k_c.value / plate.radius + fit.soil.k_phi.value;
+      add(sheet.plots[0], fmt::format("plate of radius {} mm", number(milli * plate.radius)),
+          color_of_value(plate.radius), plate.sinkage, plate.pressure,
+          [&](double z) { return modulus * std::pow(z, fit.soil.exponent.value); });
+    }
+  seen.clear();
+  for (std::size_t k = 0; k < shear.size(); ++k)
+    add(sheet.plots[1], fmt::format("ring under {:.2g} kPa", kilo * shear[k].normal_stress),
+        3 + color_of_value(shear[k].normal_stress), shear[k].displacement, shear[k].shear_stress,
+        [&, &janosi = fit.shear[k]](double j) { return -janosi.shear_max * std::expm1(-j / janosi.modulus); });
+  return sheet;
+}
+
+Json bevameter_json(const Soil& soil, const BevameterFit& fit, double density) {
+  Json document = {{"format", "soilbin-bevameter/1"}, {"soil", soil.name}};
+  for (const SoilParameter& p : bevameter_parameters) document[p.name] = estimate_json(fit.soil.*p.value);
+  document["cohesion_as_fitted"] = fit.cohesion_as_fitted;
+  document["pressure_error"] = fit.pressure_error;
+  document["density"] = density;
+  return document;
+}
+
+Table values_table(const BevameterFit& fit, const Soil& soil) {
+  Table table{"", {"value", "bevameter", "soil file"}};
+  for (const SoilParameter& p : bevameter_parameters)
+    table.add({heading(p.symbol, p.unit), number(fit.soil.*p.value, p.per_si),
+               soil.semi_empirical ? number((*soil.semi_empirical).*p.value, p.per_si) : "-"});
+  return table;
+}
+
+}  // namespace
+
+Report report_on(const BevameterFit& fit, const BevameterReadings& readings, const Soil& soil, int packings) {
+  const std::string title = "bevameter: " + soil.name;
+  Report report{title, "Simulated plates and rings on the grains of a soil.",
+                fmt::format("{}, {} bed samples", title, packings)};
+  report.add("Values", values_table(fit, soil));
+  std::vector<std::string> left;
+  if (fit.cohesion_as_fitted < 0)
+    left.push_back(fmt::format("cohesion came out at {} kPa and is given as 0", number(fit.cohesion_as_fitted / 1e3)));
+  left.push_back(fmt::format("Bekker's form misses the pressures by {} % (root mean square over mean)",
+                             number(fit.pressure_error * 100)));
+  report.add(Sentences(left));
+  report.sheet =
+      drawn_once([=, &readings, &fit] { return bevameter_sheet(title, readings.plates, readings.shear, fit); });
+  report.add("Curves", Figure{report.sheet, "Points: simulated; lines: the fit."});
+  report.data = [&soil, &fit, density = readings.density] { return bevameter_json(soil, fit, density); };
   return report;
 }
 

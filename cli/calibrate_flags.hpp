@@ -3,12 +3,15 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "cli/soil_bin.hpp"
 #include "cli/workplace.hpp"
 #include "compare/experiments/element_experiments.hpp"
+#include "compare/experiments/soil_bin_trials.hpp"
 
 namespace soilbin::cli {
 
@@ -29,6 +32,25 @@ struct ContactTestFlags {
   Soil soil_with_grains(const Workplace& place) const;
   /// progress: of each run of it.
   compare::VirtualTest test(const Soil& soil, std::function<void(const dem::Progress&)> progress) const;
+};
+
+// Flags of `calibrate` that let the soil bin decide between candidates.
+
+/// The flags as typed; empty: the default.
+struct DecisionFlags {
+  std::string campaign;         ///< empty: nobody decides
+  std::vector<std::string> at;  ///< NAME=LOW..HIGH of a member of the condition
+  int packings = 1;
+  SoilBinFlags bin;  ///< settling friction and threads are of those who have such flags anyway
+
+  void add_to(CLI::App& command);
+  bool given() const { return !campaign.empty(); }
+
+  /// The campaign with the setpoints that are asked for, and its bin where no flag says otherwise. The contact is the
+  /// caller's. Throws InputError that names the flag.
+  compare::TrialQuestion question(const Workplace& place) const;
+  /// Beds from this seed on; each candidate's record goes into `records`.
+  compare::TrialSettings settings(std::uint64_t seed, std::filesystem::path records) const;
 };
 
 }  // namespace soilbin::cli
