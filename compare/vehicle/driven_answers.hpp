@@ -32,8 +32,9 @@ struct DrivenAnswers {
   std::optional<VehicleFailure> failure{};  ///< why it does not stand at its start; then there is no record
   VehicleLimit up{};                        ///< what it climbs in a steady state, with the condition's pull
   std::vector<MovedVehicleDrive> moved{};
-  std::optional<double> travelled_error{};  ///< standard error of the way to the end [m]; none: a value without a drive
-  std::optional<double> end_time_error{};   ///< [s]; none too where some of the drives end in another way
+  std::optional<double> travelled_error{};  ///< standard error of the way to the end [m]; none where some of the drives
+                                            ///< end in another way, or do not stand
+  std::optional<double> end_time_error{};   ///< [s]; as that
 };
 
 /// The drive, and again for its errors: each doubtful value a standard deviation lower and higher, all taken as

@@ -60,6 +60,9 @@ struct VehicleAnswers {
   VehicleLimit up{}, down{}, across{};  ///< straight up, straight down, level across, with the pull that is asked
   std::optional<GoMap> map{};           ///< where one was asked for; answers_of makes none
   std::optional<double> power_speed{};  ///< at which the largest power is used up [m/s]; where there is one
+
+  /// Whether the largest power holds the condition's speed; where it travels.
+  bool holds_speed() const { return !power_speed || *power_speed >= question.condition.speed; }
 };
 
 /// Everything. Throws InputError for a soil without semi_empirical values.
