@@ -153,14 +153,14 @@ TEST(Estimate, SeveralSlipsGiveATableAndAPlotWithoutAFile) {
 TEST(Estimate, ATableSaysWhatItsRowsShare) {
   const Scratch scratch;
   const std::string page = (scratch / "page.html").string(), folder = (scratch / "text").string(),
-                    shared = "load 800 N, uphill 10°, yaw 5°";
+                    shared = "load 65 N, uphill 10°, yaw 5°";
   const Outcome r = soilbin(
-      "estimate --tire rover-wheel --soil dry-sand --load 800N --slip 10%,20% --longitudinal-incline 10deg --yaw 5deg "
+      "estimate --tire rover-wheel --soil dry-sand --load 65N --slip 10%,20% --longitudinal-incline 10deg --yaw 5deg "
       "--report '" +
       page + "' --markdown '" + folder + "'");
   EXPECT_THAT(r.out, HasSubstr("\n" + shared + "\n"));
   EXPECT_THAT(text_of(page), HasSubstr("<h1>rover-wheel on dry-sand, " + shared + "</h1>"));
-  EXPECT_THAT(text_of(std::filesystem::path(folder) / "README.md"), HasSubstr("rover-wheel on dry-sand, " + shared));
+  EXPECT_THAT(text_of(std::filesystem::path(folder) / "report.md"), HasSubstr("rover-wheel on dry-sand, " + shared));
   EXPECT_THAT(soilbin("limits --tire rover-wheel --soil dry-sand --load 65N --transverse-incline 10deg").out,
               HasSubstr("\nanalytic wheel, load 65 N, cross slope 10°\n"));
   EXPECT_THAT(soilbin("run rover-slip --yaw 5deg").out, HasSubstr("yaw 5°\n"));

@@ -147,10 +147,10 @@ TEST(VehicleAnswers, WithTooLittlePowerItDoesNotHoldItsSpeed) {
   EXPECT_LT(*answers.power_speed, vehicle.condition.speed);
   EXPECT_FALSE(answers.holds_speed());
   const Report report = report_on(answers);
-  EXPECT_EQ(report.no_answer, "it does not hold 0.1 m/s: too little power");
+  EXPECT_EQ(report.no_answer, "it does not hold 0.100 m/s: too little power");
   EXPECT_THAT(text_of(report),
-              testing::AllOf(HasSubstr("It does not hold 0.1 m/s: That takes "),
-                             HasSubstr("and 1 W reach them, enough for "), testing::Not(HasSubstr("It travels"))));
+              testing::AllOf(HasSubstr("It does not hold 0.100 m/s: That takes "),
+                             HasSubstr("and 1.00 W reach them, enough for "), testing::Not(HasSubstr("It travels"))));
 }
 
 // Both sides of the rover roll alike: one curve an axle, of a colour that the pull has not.
