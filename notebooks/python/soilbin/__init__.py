@@ -67,6 +67,7 @@ from soilbin._soilbin import (
     find_case,
     find_soil,
     find_tire,
+    find_vehicle,
     in_words,
     parse_case,
     parse_vehicle,

@@ -50,6 +50,8 @@ def drive_vehicle(vehicle: Vehicle, samples: int = 400, *, rigid: bool = False, 
 
 def wheels_frame(answer: dict[str, Any]) -> pd.DataFrame:
     """The wheels of an answer of vehicle_on_soil that travels, a row each; SI. ValueError for another one."""
+    if not isinstance(answer, dict):
+        raise TypeError(f"answer: expected what vehicle_on_soil gives, not {answer!r}")
     if answer["steady"] is None:
         raise ValueError(f"this vehicle does not travel: {answer['failure']['text']}")
     return pd.json_normalize(answer["steady"]["wheels"])
