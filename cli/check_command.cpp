@@ -13,7 +13,7 @@
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/recorded/step_pair.hpp"
 #include "compare/sweep/varying.hpp"
-#include "compare/vehicle/vehicle.hpp"
+#include "compare/vehicle/vehicle_doubts.hpp"
 #include "cone_index/vehicle.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/scm_soil.hpp"
@@ -42,7 +42,7 @@ fs::path file_named(const std::string& name, const Workplace& place) {
   std::error_code error;
   if (name.find('/') == std::string::npos && !name.ends_with(".yaml")) {
     std::vector<std::string> names;
-    for (const Shelf shelf : {Shelf::studies, Shelf::measured, Shelf::tires, Shelf::soils}) {
+    for (const Shelf shelf : all_shelves) {
       if (const auto file = place.library.find(shelf, name)) return *file;
       for (std::string& known : place.library.names(shelf)) names.push_back(std::move(known));
     }
@@ -91,9 +91,12 @@ CheckedFile judge(const fs::path& file, const Workplace& place) {
   if (format == compare::vehicle_case_format) {
     const compare::VehicleCase vehicle =
         compare::parse_vehicle_case(read_source_text(file, largest_yaml), place.library, place.effects);
+    compare::Doubts doubts = compare::doubts(vehicle);
+    append(doubts, compare::doubts(vehicle.soil));
+    for (const compare::VehicleAxle& axle : vehicle.axles) append(doubts, compare::doubts(axle.tire));
     return {fmt::format("vehicle '{}': {} on {}", vehicle.name, compare::counted(vehicle.axles.size(), "axle"),
                         compare::in_words(vehicle.soil)),
-            compare::doubts(vehicle.soil)};
+            once_each(doubts)};
   }
   const Case question =
       read_case(file, place.library, place.effects);  // refuses any other format with the nearest word

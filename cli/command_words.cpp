@@ -30,6 +30,9 @@ const Elsewhere elsewhere[] = {
      {"--plot", "--csv", "--report", "--slips"},
      "this explains one answer; curves over slip: soilbin estimate --slip 0%..60% --plot slip.svg; over slope: soilbin "
      "limits --plot slope.svg"},
+    {{"explain", "limits"},
+     {"--model"},
+     "this is of the analytic wheel; soilbin estimate --model rft asks another model"},
     {{"estimate", "explain", "limits", "serve"}, {"--diameter"}, "--radius takes half of it"},
     {{"limits"},
      {"--slip", "--longitudinal-incline"},

@@ -23,8 +23,7 @@ int doctor(bool json, const Session& session) {
   for (const auto& folder : session.place.folders) text += "  " + folder.string() + "\n";
   bool well = !session.place.folders.empty();
   if (!well) text += "  not found: set SOILBIN_CASES to a folder with tires/, soils/ and studies/\n";
-  for (const Shelf shelf : {Shelf::tires, Shelf::soils, Shelf::studies, Shelf::measured})
-    text += fmt::format("  {} {}\n", library.names(shelf).size(), folder_of(shelf));
+  for (const Shelf shelf : all_shelves) text += fmt::format("  {} {}\n", library.names(shelf).size(), folder_of(shelf));
   text += "\nSelf-test: wheels that two independent codes compute alike, to the last digit shown\n";
   for (const bekker_wong::AgreedPoint& point : bekker_wong::agreed_points()) {
     const double off = worst_difference(point, reading_at(point));

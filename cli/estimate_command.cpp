@@ -18,6 +18,7 @@ namespace {
 
 struct EstimateOptions {
   OutputFlags outputs;
+  QuickModelFlag model;
   TireFlags tire;
 };
 
@@ -27,6 +28,7 @@ int estimate(const Question& inputs, const EstimateOptions& options, const Sessi
     throw InputError(
         "--plot draws curves: it takes several values of slip or of another condition\n"
         "  hint: --slip 0%..60%, or --load 50N..200N; the steepest slope: soilbin limits --plot slope.svg");
+  options.model.apply(question, inputs.names_effects());
   require_semi_empirical(question, session.place.library);
   compare::Doubts notes = options.tire.apply(question, inputs.switches_effects_off());
   const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
@@ -45,6 +47,7 @@ void add_estimate(CLI::App& app, Session& session) {
       app.add_subcommand("estimate", "drawbar pull, torque, sinkage and side force, from flags or a case");
   const auto inputs = std::make_shared<Question>(*command);
   const auto options = std::make_shared<EstimateOptions>();
+  options->model.add_to(*command);
   options->tire.add_to(*command);
   options->outputs.add_to(*command, {.json = "the answers as JSON, in SI",
                                      .plot = "draw the curves over slip, or over another condition that varies",

@@ -23,27 +23,19 @@ namespace {
 
 struct TableOptions {
   OutputFlags outputs;
-  std::string hdf5, header, fmu, model;
+  std::string hdf5, header, fmu;
+  QuickModelFlag model;
   TireFlags tire;
 };
-
-void choose_model(Case& question, const TableOptions& options, bool names_effects) {
-  if (options.model.empty()) return;
-  check_model(options.model, {"bekker_wong", "rft", "cone_index"});
-  const ModelKind kind = read_word<ModelKind>("--model", options.model);
-  if (names_effects && kind != ModelKind::bekker_wong)
-    throw InputError(fmt::format("--effect means nothing to --model {}\n  hint: leave one of them out", options.model));
-  compare::keep_models(question.study, kind);
-}
 
 struct AskedTable {
   compare::ForceTable table;
   compare::Doubts doubts;
 };
 
-AskedTable ask_table(const Question& inputs, const TableOptions& options, bool names_effects, const Session& session) {
+AskedTable ask_table(const Question& inputs, const TableOptions& options, const Session& session) {
   Case question = inputs.ask(session.place);
-  choose_model(question, options, names_effects);
+  options.model.apply(question, inputs.names_effects());
   require_semi_empirical(question, session.place.library);
   compare::Doubts notes = options.tire.apply(question, inputs.switches_effects_off());
   AskedTable asked{compare::force_table(std::move(question), shown_progress()), {}};
@@ -51,8 +43,8 @@ AskedTable ask_table(const Question& inputs, const TableOptions& options, bool n
   return asked;
 }
 
-int export_table(const Question& inputs, const TableOptions& options, bool names_effects, const Session& session) {
-  const auto [table, doubts] = ask_table(inputs, options, names_effects, session);
+int export_table(const Question& inputs, const TableOptions& options, const Session& session) {
+  const auto [table, doubts] = ask_table(inputs, options, session);
   compare::Report report = compare::report_on(table);
   report.resolved_case = write_case(table.question, session.place.effects);
   Outputs outputs = publish(report, options.outputs, doubts, session);
@@ -66,8 +58,8 @@ int export_table(const Question& inputs, const TableOptions& options, bool names
   return outputs.status(done);
 }
 
-int export_fmi(const Question& inputs, const TableOptions& options, bool names_effects, const Session& session) {
-  AskedTable asked = ask_table(inputs, options, names_effects, session);
+int export_fmi(const Question& inputs, const TableOptions& options, const Session& session) {
+  AskedTable asked = ask_table(inputs, options, session);
   const std::string name = compare::c_name_of(options.fmu.empty() ? "wheel.fmu" : options.fmu);
   const compare::WheelFmu fmu = compare::wheel_fmu(std::move(asked.table), {.name = name, .version = SOILBIN_VERSION});
   const compare::CompiledC compiled = compare::compiled_by_cc(compare::files_in_c(fmu), name + ".c");
@@ -166,8 +158,7 @@ void add_gazebo(CLI::App& app, Session& session) {
 
 /// The flags that the table and what is made of it have in common.
 void add_table_flags(CLI::App& command, TableOptions& options) {
-  add_value(command, "--model", options.model, "NAME", "only this model: bekker_wong, rft or cone_index")
-      ->group("Model");
+  options.model.add_to(command);
   options.tire.add_to(command);
 }
 
@@ -184,9 +175,8 @@ void add_table(CLI::App& app, Session& session) {
       "The table runs over each condition that has several values, in every combination.\n"
       "Example: soilbin export table --soil dry-sand --tire rover-wheel --load 40N..120N:10N --slip 0%..60%:5%\n"
       "         --header rover.h --csv rover.csv");
-  command->callback([=, &session] {
-    session.action = [=, &session] { return export_table(*inputs, *options, command->count("--effect") > 0, session); };
-  });
+  command->callback(
+      [=, &session] { session.action = [=, &session] { return export_table(*inputs, *options, session); }; });
 }
 
 void add_fmi(CLI::App& app, Session& session) {
@@ -201,9 +191,8 @@ void add_fmi(CLI::App& app, Session& session) {
       "The table runs over slip from 0 % on; each other condition with several values becomes an input of the unit.\n"
       "Example: soilbin export fmi --soil dry-sand --tire rover-wheel --load 40N..120N:10N --slip 0%..80%:5%\n"
       "         --output rover.fmu");
-  command->callback([=, &session] {
-    session.action = [=, &session] { return export_fmi(*inputs, *options, command->count("--effect") > 0, session); };
-  });
+  command->callback(
+      [=, &session] { session.action = [=, &session] { return export_fmi(*inputs, *options, session); }; });
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // soilbin list: what the library holds, and the catalogue of effects.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -11,6 +12,7 @@
 #include "cli/outputs.hpp"
 #include "compare/measured/campaign.hpp"
 #include "compare/report/json_fields.hpp"
+#include "compare/vehicle/vehicle.hpp"
 #include "scenario/contents.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -102,6 +104,19 @@ ShelfRow campaign_row(const std::string& name, const Workplace& place) {
           {{"runs", campaign.runs.size()}, {"channels", channels}}};
 }
 
+ShelfRow vehicle_row(const std::string& name, const Workplace& place) {
+  const compare::VehicleCase vehicle = compare::find_vehicle_case(name, place.library, place.effects);
+  std::vector<std::string> tires;
+  for (const compare::VehicleAxle& axle : vehicle.axles)
+    if (std::ranges::find(tires, axle.tire.name) == tires.end()) tires.push_back(axle.tire.name);
+  return {{number(vehicle.mass), std::to_string(vehicle.axles.size()), listed(tires), vehicle.soil.name},
+          {{"mass", vehicle.mass},
+           {"axles", vehicle.axles.size()},
+           {"tires", tires},
+           {"soil", vehicle.soil.name},
+           {"source", vehicle.source}}};
+}
+
 const std::vector<ShelfView>& shelf_views() {
   static const std::vector<ShelfView> views = [] {
     std::vector<std::string> soil_columns;
@@ -111,6 +126,7 @@ const std::vector<ShelfView>& shelf_views() {
         {Shelf::soils, "Soils", soil_columns, soil_row,
          "\n*: an assumed standard deviation; the source of the value gives none\n"},
         {Shelf::tires, "Tires and wheels", {"radius [mm]", "width [mm]", "lugs", "pressure [kPa]"}, tire_row},
+        {Shelf::vehicles, "Vehicles", {"mass [kg]", "axles", "tires", "soil"}, vehicle_row},
         {Shelf::studies, "Studies", {"tire", "soil", "models", "conditions"}, study_row},
         {Shelf::measured, "Measured campaigns", {"runs", "measured"}, campaign_row}};
   }();
@@ -250,7 +266,7 @@ int list(const std::string& what, bool json, bool names, const Session& session)
   for (const ShelfView& view : shelf_views())
     if (const auto file = session.place.library.find(view.shelf, what))
       throw InputError(fmt::format("'{0}' is in the list of {1}\n  hint: soilbin list {1}; the whole of it: {2}", what,
-                                   view.shelf == Shelf::measured ? "measured" : folder_of(view.shelf), file->string()));
+                                   folder_of(view.shelf), file->string()));
   throw InputError("can't list '" + clipped(what) + "'" + did_you_mean(what, right) + "\n  hint: one of " +
                    listed(right));
 }
@@ -258,14 +274,14 @@ int list(const std::string& what, bool json, bool names, const Session& session)
 }  // namespace
 
 void add_list(CLI::App& app, Session& session) {
-  CLI::App* command = app.add_subcommand("list", "what there is: soils, tires, effects, studies, measured");
+  CLI::App* command = app.add_subcommand("list", "what there is: soils, tires, vehicles, effects, studies, measured");
   const auto what = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
   add_value(*command, "what", *what, "WHAT",
-            "soils, tires, effects, studies or measured; without it: every name, with a line on what it is");
+            "soils, tires, vehicles, effects, studies or measured; without it: every name, with a line on what it is");
   command->add_flag("--json", *json, "as JSON, in SI");
   const auto names = std::make_shared<bool>(false);
-  command->add_flag("--names", *names, "of soils, tires, studies or measured the names alone, a line each");
+  command->add_flag("--names", *names, "the names of a shelf alone, a line each");
   command->callback([=, &session] { session.action = [=, &session] { return list(*what, *json, *names, session); }; });
 }
 

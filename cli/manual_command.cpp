@@ -70,7 +70,8 @@ std::string manual_page(const CLI::App& app) {
   return page +
          ".SH EXIT STATUS\n0: done; 1: failed, or no answer; 2: bad input; 3: part of the work is done and kept, the "
          "same command goes on; 130: stopped by Ctrl\\-C.\n"
-         ".SH ENVIRONMENT\n.TP\nSOILBIN_CASES\nfolders of tires, soils, studies and campaigns, before the installed "
+         ".SH ENVIRONMENT\n.TP\nSOILBIN_CASES\nfolders of tires, soils, studies, vehicles and campaigns, before the "
+         "installed "
          "ones\n"
          ".TP\nSOILBIN_BEDS\nfolder in which settled beds of grains are kept\n"
          ".TP\nSOILBIN_JAVASCRIPT\nfolder of d3 and three.js for pages, before those of the system\n";

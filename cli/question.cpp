@@ -183,6 +183,17 @@ void ErrorFlag::apply(Case& question) const {
     question.on_command_line.insert("no_assumed_sd");
 }
 
+void QuickModelFlag::apply(Case& question, bool names_effects) const {
+  if (model_.empty()) return;
+  if (model_ == word_of(ModelKind::dem))
+    throw InputError("--model dem: grains are run, not estimated\n  hint: soilbin run CASE --model dem");
+  check_model(model_, {"bekker_wong", "rft", "cone_index"});
+  const ModelKind kind = read_word<ModelKind>("--model", model_);
+  if (names_effects && kind != ModelKind::bekker_wong)
+    throw InputError(fmt::format("--effect means nothing to --model {}\n  hint: leave one of them out", model_));
+  compare::keep_models(question.study, kind);
+}
+
 Study ConditionFlags::picked(const Flags& flags, const Study& study, const Tire& tire) {
   std::vector<AskedCondition> asked = with_rotations(study);
   bool overridden = false;

@@ -88,6 +88,20 @@ class TireFlags {
   compare::TireLeftOut left_out_;
 };
 
+/// --model of a quick answer: the analytic wheel's, or one of its own.
+class QuickModelFlag {
+ public:
+  void add_to(CLI::App& app) {
+    add_value(app, "--model", model_, "NAME", "only this model: bekker_wong, rft or cone_index")->group("Model");
+  }
+  /// Leaves the question with the model that is asked for. Throws InputError for one that takes no effects, where
+  /// `names_effects`.
+  void apply(Case& question, bool names_effects) const;
+
+ private:
+  std::string model_;
+};
+
 /// The notes, then what is doubtful in the answers.
 compare::Doubts joined_doubts(compare::Doubts notes, const Case& question,
                               const std::vector<compare::ModelAnswers>& study);
@@ -142,7 +156,8 @@ class Question {
 
   /// Throws InputError that names the flag that is missing or wrong.
   Case ask(const Workplace& place) const;
-  /// Whether '--effect none' was given.
+  /// Whether --effect was given, whether as '--effect none'.
+  bool names_effects() const { return !effects_.empty(); }
   bool switches_effects_off() const { return std::ranges::find(effects_, "none") != effects_.end(); }
 
  private:

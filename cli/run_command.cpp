@@ -244,7 +244,8 @@ void add_run(CLI::App& app, Session& session) {
   command->add_option("study", options->study, "a study of the library, or a case file")
       ->type_name("STUDY")
       ->required();
-  command->add_option("--model", options->model, "only this model: bekker_wong or dem")->type_name("NAME");
+  command->add_option("--model", options->model, "only this model: bekker_wong, dem, rft or cone_index")
+      ->type_name("NAME");
   options->outputs.add_to(*command, {.json = "the results as JSON, in SI",
                                      .plot = "draw the curves over slip, or over another condition that varies",
                                      .csv = "save the table"});

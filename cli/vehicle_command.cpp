@@ -20,7 +20,7 @@ namespace soilbin::cli {
 namespace {
 
 struct VehicleOptions {
-  std::string file, soil, density, map;
+  std::string name, soil, density, map;
   unsigned samples = 50;
   bool drive = false;
   compare::TireLeftOut left_out;
@@ -44,13 +44,14 @@ int drive_in_time(const VehicleOptions& options, const compare::VehicleCase& que
   constexpr int intervals = 400;
   const compare::DrivenAnswers answers =
       compare::driven_answers(question, wheels, model, intervals, shown_progress_in_time());
+  append(doubts, compare::doubts(question));
   append(doubts, compare::doubts(question.soil));
   return publish(compare::report_on(answers), options.outputs, once_each(doubts), session).status(done);
 }
 
 int vehicle(const VehicleOptions& options, const Session& session) {
-  compare::VehicleCase question = compare::parse_vehicle_case(read_source_text(options.file, largest_yaml),
-                                                              session.place.library, session.place.effects);
+  compare::VehicleCase question =
+      compare::find_vehicle_case(options.name, session.place.library, session.place.effects);
   if (!options.soil.empty()) question.soil = find_soil(options.soil, session.place.library);
   if (!options.density.empty()) pick_bed(question.soil, options.density);
   options.condition.apply(question.condition);
@@ -74,7 +75,9 @@ void add_vehicle(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand(
       "vehicle", "a vehicle on soil: does it go, how steep up, down and across, which wheel gives out");
   const auto options = std::make_shared<VehicleOptions>();
-  add_value(*command, "file", options->file, "FILE.yaml", "a vehicle on a soil (soilbin-vehicle-case/1)")->required();
+  add_value(*command, "vehicle", options->name, "VEHICLE",
+            "a vehicle of the library, or a file (soilbin-vehicle-case/1)")
+      ->required();
   add_value(*command, "--soil", options->soil, "NAME|FILE", "in place of the file's soil");
   add_value(*command, "--density", options->density, "kg/m^3", "of the bed, of a soil with several");
   options->condition.add_to(*command, "Condition");
@@ -95,8 +98,8 @@ void add_vehicle(CLI::App& app, Session& session) {
   command->footer(
       "Exit status 1 where the vehicle does not travel in the condition that is asked, in time where it does not stand "
       "at its start.\n"
-      "Examples: soilbin vehicle cases/vehicles/truck.yaml --slope 5deg --pull 2kN\n"
-      "          soilbin vehicle cases/vehicles/rover.yaml --drive --slope 10deg --report climb.html");
+      "Examples: soilbin vehicle truck --slope 5deg --pull 2kN\n"
+      "          soilbin vehicle rover --drive --slope 10deg --report climb.html");
   command->callback([=, &session] { session.action = [=, &session] { return vehicle(*options, session); }; });
 }
 

@@ -40,4 +40,4 @@ endif()
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(SUNDIALS REQUIRED_VARS ${needed} VERSION_VAR SUNDIALS_VERSION
-  REASON_FAILURE_MESSAGE "packaging/debian-packages.txt names the packages, and ./demo sees to them")
+  REASON_FAILURE_MESSAGE "bash -c '. packaging/set_up.sh && set_up build' installs the packages and unpacks this one below build/unpacked")

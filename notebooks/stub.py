@@ -139,6 +139,7 @@ def properties(owner):
 
 def enumeration(name, cls):
     words = "".join(f"    {word}: ClassVar[{name}]\n" for word in cls.__members__)
+    words += f"    __members__: ClassVar[dict[str, {name}]]\n"
     return (f"class {name}:{documented(cls.__doc__.split('Members:')[0], 4)}\n{words}"
             f"    def __init__(self, value: int) -> None: ...\n    def __int__(self) -> int: ...\n"
             f"    @property\n    def name(self) -> str: ...\n    @property\n    def value(self) -> int: ...\n")

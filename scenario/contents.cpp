@@ -29,8 +29,7 @@ void check_head(const SourceText& source, const YamlNode& root) {
   if (format == nullptr || format->scalar != contents_format)
     source.refuse(format == nullptr ? root.offset : format->offset, std::string("expected format: ") + contents_format);
   std::vector<std::string> words = {"format"};
-  for (const Shelf shelf : {Shelf::tires, Shelf::soils, Shelf::studies, Shelf::measured})
-    words.emplace_back(folder_of(shelf));
+  for (const Shelf shelf : all_shelves) words.emplace_back(folder_of(shelf));
   for (std::size_t i = 0; i < root.items.size(); i += 2)
     if (const std::string& key = root.items[i].scalar; std::find(words.begin(), words.end(), key) == words.end())
       source.refuse(root.items[i].offset, "unknown key '" + clipped(key) + "'" + did_you_mean(key, words));

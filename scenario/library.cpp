@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <cstdlib>
 #include <set>
 #include <sstream>
@@ -32,6 +31,8 @@ std::string kind_of(Shelf shelf) {
       return "study";
     case Shelf::measured:
       return "campaign";
+    case Shelf::vehicles:
+      return "vehicle";
   }
   return "";
 }
@@ -40,6 +41,7 @@ std::string kind_of(Shelf shelf) {
 std::string where_it_goes(Shelf shelf, Shelf asked, const std::string& name, const std::string& there) {
   if (asked != Shelf::measured && (shelf == Shelf::tires || shelf == Shelf::soils))
     return fmt::format("--{} {} takes it; {}", kind_of(shelf), name, there);
+  if (shelf == Shelf::vehicles) return fmt::format("soilbin vehicle {} takes it; {}", name, there);
   return there;
 }
 
@@ -78,13 +80,12 @@ fs::path find_file(const Library& library, Shelf shelf, const std::string& name)
   if (fs::exists(name, error)) return name;
   const std::vector<std::string> names = library.names(shelf);
   const std::string there = what_there_is(shelf, names);
-  constexpr std::array shelves = {Shelf::tires, Shelf::soils, Shelf::studies, Shelf::measured};
-  for (const Shelf other : shelves)
+  for (const Shelf other : all_shelves)
     if (other != shelf && library.find(other, name))
       throw InputError(fmt::format("no {} '{}' in the library: that is a {}\n  hint: {}", kind_of(shelf), name,
                                    kind_of(other), where_it_goes(other, shelf, name, there)));
   std::string meant = did_you_mean(name, names);
-  for (const Shelf other : shelves)
+  for (const Shelf other : all_shelves)
     if (const std::string near = nearest_word(name, library.names(other)); meant.empty() && !near.empty())
       meant = fmt::format(", did you mean the {} '{}'?", kind_of(other), near);
   throw InputError(fmt::format("no {} '{}' in the library, and no such file{}\n  hint: {}", kind_of(shelf),
@@ -101,6 +102,8 @@ std::string_view folder_of(Shelf shelf) {
       return "studies";
     case Shelf::measured:
       return "measured";
+    case Shelf::vehicles:
+      return "vehicles";
   }
   return "";
 }

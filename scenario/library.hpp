@@ -1,10 +1,11 @@
-// A library of case files: tires, soils, studies and measured campaigns in folders, found by name.
+// A library of case files: tires, soils, studies, measured campaigns and vehicles in folders, found by name.
 //
-//   const Library library({"cases"});                 // a folder with tires/, soils/, studies/, measured/
+//   const Library library({"cases"});                 // a folder with tires/, soils/, studies/, ...
 //   library.names(Shelf::soils)                       // "clayey-soil", "cmu-sand", ...
 //   find_file(library, Shelf::tires, "rover-wheel")   // cases/tires/rover-wheel.yaml
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,10 +15,14 @@
 namespace soilbin {
 
 /// The folders of a library of cases.
-enum class Shelf { tires, soils, studies, measured };
+enum class Shelf { studies, measured, vehicles, tires, soils };
 
-/// Looks names up in folders that hold tires/, soils/, studies/ (NAME.yaml) and measured/ (NAME/campaign.yaml); the
-/// first folder that has a name wins.
+/// Each, in the order in which a name is looked for that may stand on several: a question before its parts.
+inline constexpr std::array all_shelves = {Shelf::studies, Shelf::measured, Shelf::vehicles, Shelf::tires,
+                                           Shelf::soils};
+
+/// Looks names up in folders that hold tires/, soils/, studies/, vehicles/ (NAME.yaml) and measured/
+/// (NAME/campaign.yaml); the first folder that has a name wins.
 class Library {
  public:
   explicit Library(std::vector<std::filesystem::path> folders = {}) : folders_(std::move(folders)) {}

@@ -196,6 +196,28 @@ std::size_t read_word(const YamlNode& node, const std::vector<std::string>& righ
   return static_cast<std::size_t>(found - right.begin());
 }
 
+namespace {
+
+/// What takes a file that is given in another one's place.
+struct OtherFormat {
+  std::string_view format;
+  const char* hint;  ///< {}: the file
+};
+constexpr OtherFormat other_formats[] = {
+    {"soilbin-case/1", "a case is a question: soilbin run, estimate or compare takes it"},
+    {"soilbin-campaign/1", "a campaign is measured runs: soilbin check, predict or loop takes it"},
+    {"soilbin-vehicle-case/1", "that is a vehicle on a soil: soilbin vehicle {}"},
+    {"soilbin-vehicle/1", "that is a vehicle without a soil: soilbin mobility {}"},
+    {"soilbin-soil/1", "that is a soil: --soil {}"},
+    {"soilbin-tire/1", "that is a tire: --tire {}"}};
+
+std::string hint_at_format(const std::string& format, const std::string& file) {
+  const auto* const other = std::ranges::find(other_formats, format, &OtherFormat::format);
+  return other == std::end(other_formats) ? "" : fmt::format(fmt::runtime(other->hint), file);
+}
+
+}  // namespace
+
 void expect_format(const YamlNode& document, const std::string& format, const Reading& reading) {
   if (!document.is_mapping())
     reading.refuse(document, fmt::format("expected a mapping that begins with 'format: {}', not {}", format,
@@ -204,10 +226,7 @@ void expect_format(const YamlNode& document, const std::string& format, const Re
   if (node == nullptr) reading.refuse(document, "key 'format' is missing", "format: " + format);
   if (!node->is_scalar() || node->scalar != format)
     reading.refuse(*node, fmt::format("unknown format '{}': expected '{}'", clipped(node->scalar), format),
-                   node->scalar == "soilbin-case/1" ? "a case is a question: soilbin run, estimate or compare takes it"
-                   : node->scalar == "soilbin-campaign/1"
-                       ? "a campaign is measured runs: soilbin check, predict or loop takes it"
-                       : "");
+                   node->is_scalar() ? hint_at_format(node->scalar, reading.source->file) : "");
 }
 
 }  // namespace soilbin

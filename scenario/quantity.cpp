@@ -159,9 +159,10 @@ std::optional<std::string> searched_decimal(double value, const Unit& unit) {
 }
 
 /// ", did you mean '20%'?" of a plain number that is too large for a share and is one as a percentage. Below 2 it is
-/// rather a coefficient that is a little too large: a Poisson ratio of 0.6, a restitution of 1.5.
+/// rather a coefficient that is a little too large: a Poisson ratio of 0.6, a restitution of 1.5. What may be above 1
+/// is no share: the exponent.
 std::string meant_percent(const Decimal& decimal, const Unit& unit, double value, const Range& range) {
-  if (unit.text != "-" || std::abs(value) < 2.0 || !range.holds(value / 100)) return "";
+  if (unit.text != "-" || range.upper > 1.0 || std::abs(value) < 2.0 || !range.holds(value / 100)) return "";
   return fmt::format(", did you mean '{}%'?", decimal.mantissa);
 }
 

@@ -102,7 +102,7 @@ constexpr std::array names = {
     Named{"N*m", "a torque", "120 N m"},
     Named{"W", "a power", "90 kW"},
     Named{"kg*m^2", "a moment of inertia", "0.02 kg m^2"},
-    Named{"Pa", "a pressure", "3.63 kPa"},
+    Named{"Pa", "a pressure", "20 kPa"},
     Named{"N/m", "a stiffness", "300 N/m"},
     Named{"kg/m^3", "a density", "1600 kg/m^3"},
     Named{"N/m^(n+1)", "a cohesive modulus", "0.99 kN/m^(n+1)"},

@@ -435,7 +435,12 @@ MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, con
   const PlateNumbers all = numbers_of(sums, n), lower = fit.halves_compared ? numbers_of(low, n) : all,
                      upper = fit.halves_compared ? numbers_of(high, n) : all;
   fit.low_exponent = lower.exponent, fit.high_exponent = upper.exponent;
-  for (const PlateCurve& curve : curves) fit.readings += curve.pressure.size();
+  for (const PlateCurve& curve : curves) {
+    fit.readings += curve.pressure.size();
+    const double deepest = *std::ranges::max_element(curve.sinkage);
+    if (deepest * fit.deepest_radius >= fit.deepest * curve.radius)
+      fit.deepest = deepest, fit.deepest_radius = curve.radius;
+  }
   const std::array<double, 3> tests = errors_between_tests(sums, fit, n);
   const std::array<double, 3> readings = errors_of_readings(sums, fit.readings, n);
   const std::array<PlateValue*, 3> values = {&fit.exponent, &fit.k_c, &fit.k_phi};

@@ -87,7 +87,9 @@ struct MeasuredPlatesFit {
   /// tests of the one that each is fitted best by, in least squares; and what it misses, as pressure_error.
   PlateValue xi_n;
   double xi_n_pressure_error = 0.0;
-  double lowest = 0.0, highest = 0.0;   ///< pressures that were used [Pa]
+  double lowest = 0.0, highest = 0.0;  ///< pressures that were used [Pa]
+  double deepest = 0.0,
+         deepest_radius = 0.0;          ///< sinkage that was used, the largest over its plate's b, and that b [m]
   std::vector<double> radii;            ///< b of the plates, from the smallest [m]
   std::vector<double> plate_exponents;  ///< of each of these by itself
   std::vector<double> plate_moduli;     ///< of each at the common n [N/m^(n+2)]

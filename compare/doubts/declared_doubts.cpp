@@ -40,6 +40,9 @@ void add_value_doubts(const SemiEmpiricalSoil& soil, Doubts& all) {
   if (!(soil.k_c.value > 0.0) && !(soil.k_phi.value > 0.0)) all.push_back({DoubtKind::carries_nothing});
   const double phi = soil.friction_angle.value / degree, c = soil.cohesion.value / 1000;
   expect(all, DoubtKind::unusual_exponent, soil.exponent.value, 0.1, 1.8);
+  constexpr double plate = 0.1, sunk = 0.05;  // [m]
+  if (const double p = (soil.k_c.value / plate + soil.k_phi.value) * std::pow(sunk, soil.exponent.value) / 1000; p > 0)
+    expect(all, DoubtKind::unusual_pressure, p, 0.5, 3000);
   expect(all, DoubtKind::unusual_cohesion, c, 0, 100);
   expect(all, DoubtKind::unusual_friction_angle, phi, 0, 50);
   expect(all, DoubtKind::unusual_shear_modulus, 1000 * soil.shear_modulus.value, 0.5, 120);

@@ -21,10 +21,11 @@ namespace soilbin::compare {
 // clang-format off
 enum class DoubtKind {
   // a soil and a wheel by themselves
-  unusual_exponent, unusual_cohesion, unusual_friction_angle, unusual_shear_modulus, unusual_density, unusual_gravity,
+  unusual_exponent, unusual_pressure, unusual_cohesion, unusual_friction_angle, unusual_shear_modulus,
+  unusual_density, unusual_gravity,
   unusual_radius, carries_nothing, carries_nothing_at_width, no_strength, usual_stress_angle, stress_angles_limited,
   stress_behind_axle, rough_errors, rough_errors_at_zero, hardly_known, hardly_known_at_zero, exponent_changed_alone,
-  wider_than_high, high_lugs,
+  wider_than_high, high_lugs, beyond_wheels, tips_easily, unusual_wheel_load,
   // an answer
   no_solution, standing_wheel, power_from_nothing, unusual_ground_pressure, slides_across, settles_too_deep,
   deep_sinkage, bin_floor, short_contact, large_deflection, beyond_deflections, flattens, pull_without_slip,
@@ -57,11 +58,11 @@ enum class DoubtKind {
   flipped_sign, column_too_large, column_too_small, slip_in_shares, slip_in_percent, load_in_another_unit,
   columns_swapped, load_swapped,
   // measured plates
-  plate_test_apart, sensor_stuck, many_spikes, one_plate_size, negative_modulus, unusual_plate_exponent,
+  plate_test_apart, sunk_beyond_plate, sensor_stuck, many_spikes, one_plate_size, negative_modulus, unusual_plate_exponent,
   scattered_plate_tests, no_repeated_plates, halves_not_compared, form_misses, curve_stiffens, curve_flattens,
   beyond_densities_of_plates,
   // measured shear tests
-  one_normal_stress, shear_falls_again, few_shear_tests,
+  one_normal_stress, shear_falls_again, few_shear_tests, no_repeated_shear_tests,
   // drives and pages
   shear_gives_back, grains_left_out,
 };

@@ -27,6 +27,8 @@ struct DoubtSentence {
   " the prediction fits far better; look at its unit{3:?, '{}'}{0:?, in its header or under 'columns:' in campaign.yaml}"
 constexpr DoubtSentence sentences[] = {
     D(unusual_exponent, "n = {:.4g} is outside {:.4g} .. {:.4g}: most plate tests give 0.1 .. 1.6"),
+    D(unusual_pressure, "k_c, k_phi and n press a plate 100 mm wide into the soil by 50 mm with {:n3} kPa, outside "
+      "{:.4g} .. {:.4g}: fresh snow bears 2 kPa so, dense sand 700 kPa; are the units of k_c and k_phi right?"),
     D(unusual_cohesion, "c = {:.4g} kPa is outside {:.4g} .. {:.4g}: soft soils have 0 .. 70 kPa"),
     D(unusual_friction_angle, "phi = {:.4g} deg is outside {:.4g} .. {:.4g}: the densest sand has some 45 deg"),
     D(unusual_shear_modulus, "K = {:.4g} mm is outside {:.4g} .. {:.4g}: 6 mm in firm clay, 25 mm in loose sand"),
@@ -50,6 +52,12 @@ constexpr DoubtSentence sentences[] = {
       "test found them"),
     D(wider_than_high, "the wheel is wider ({:.4g} mm) than its diameter ({:.4g} mm)"),
     D(high_lugs, "the lugs ({:.4g} mm) are higher than 30 % of the radius"),
+    D(beyond_wheels, "the centre of gravity lies {:.3g} m {} of all wheels: on level ground the vehicle tips over; is "
+      "centre_of_gravity right?"),
+    D(tips_easily, "with its centre of gravity {:.3g} m high and {:.3g} m beside the nearer wheels it tips over on hard "
+      "ground at a cross slope of {:.2g} deg: usual are {:.0f} deg and more; is centre_of_gravity right?"),
+    D(unusual_wheel_load, "a wheel of axle '{}' carries {:N3} on level ground, {:n3} kPa over its radius times its width: "
+      "usual are {:.3g} .. {:.4g} kPa{:? for {}}; are mass, axles and tires right?"),
     D(no_solution, "no solution{at}: {error}"),
     D(standing_wheel, "at a speed of 0 a wheel is at rest or slips by 100 %; the answer is that of a very slow "
       "wheel{at}"),
@@ -211,6 +219,8 @@ constexpr DoubtSentence sentences[] = {
     D(load_swapped, "{}the columns '{}' and '{}' look swapped: exchanged, they fit the prediction far better; look at "
       "the header{:?, and at 'columns:' in {}}"),
     D(plate_test_apart, "{}"),
+    D(sunk_beyond_plate, "a plate of b = {:g} mm sinks by {:n3} mm: plates are pressed in by about their size; is the "
+      "unit of the sinkage right?"),
     D(sensor_stuck, "test '{}', b = {:g} mm: the sinkage stays at {:n3} mm while the pressure rises from {:n3} "
       "kPa on; {:#reading} set aside: does the depth sensor stick, is it at the end of its range, or is the ground "
       "hard there?"),
@@ -244,6 +254,9 @@ constexpr DoubtSentence sentences[] = {
     D(shear_falls_again, "the shear stress falls after a peak in {} of {:#test}: Janosi's curve stays at tau_max; at "
       "high slip the residual strength acts (effect shear_hump)"),
     D(few_shear_tests, "{:#test}: c and phi have no error; three tests are needed"),
+    D(no_repeated_shear_tests, "no normal stress was tested twice: the errors are what {:#test} scatter about one line, "
+      "and leave out what c, phi and K change from bed to bed; test each stress on two beds or more, or give wider "
+      "standard deviations"),
     D(shear_gives_back, "the soil's shear returns {:.3g} J, {:.2g} % of the work of compaction: where the tread's "
       "slip reverses, the model unloads the shear stress along its loading curve, at the present pressure. Real soil "
       "does not return it: the resistance is too small by about this share"),

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "compare/bevameter/measured_plates.hpp"
 #include "compare/bevameter/measured_shear.hpp"
@@ -11,9 +12,23 @@
 
 namespace soilbin::compare {
 
+namespace {
+
+bool any_stress_twice(std::span<const MeasuredShear> tests) {
+  std::vector<double> stresses;
+  for (const MeasuredShear& test : tests) stresses.push_back(test.curve.normal_stress);
+  std::ranges::sort(stresses);
+  return std::ranges::adjacent_find(stresses, [](double a, double b) { return b < 1.05 * a; }) != stresses.end();
+}
+
+}  // namespace
+
 Doubts doubts(const MeasuredPlatesFit& fit) {
   Doubts all;
   for (const PlateTestApart& one : fit.apart) all.push_back({DoubtKind::plate_test_apart, {in_words(one)}});
+  constexpr double far = 4.0;  // of b: twice a round plate's diameter
+  if (fit.deepest > far * fit.deepest_radius)
+    all.push_back({DoubtKind::sunk_beyond_plate, {1000 * fit.deepest_radius, 1000 * fit.deepest}});
   std::size_t spikes = 0;
   for (const PlateReadingsAside& one : fit.aside) {
     if (one.readings.why == AsideWhy::stuck)
@@ -49,7 +64,8 @@ Doubts doubts(const PlateGroups& groups) {
   Doubts all;
   for (const PlateGroup& group : groups.all)
     for (Doubt& doubt : doubts(group.fit)) {
-      const bool of_readings = doubt.kind == DoubtKind::plate_test_apart || doubt.kind == DoubtKind::sensor_stuck ||
+      const bool of_readings = doubt.kind == DoubtKind::plate_test_apart ||
+                               doubt.kind == DoubtKind::sunk_beyond_plate || doubt.kind == DoubtKind::sensor_stuck ||
                                doubt.kind == DoubtKind::many_spikes;
       if (of_readings || (doubt.kind == DoubtKind::one_plate_size && !tell_of(all, doubt.kind)))
         all.push_back(std::move(doubt));
@@ -67,6 +83,8 @@ Doubts doubts(const MeasuredShearFit& fit, std::span<const MeasuredShear> tests)
   for (const ShearTestFit& one : fit.tests) humps += one.residual ? 1 : 0;
   if (humps > 0) all.push_back({DoubtKind::shear_falls_again, {humps, tests.size()}});
   if (fit.tests.size() < 3 && !fit.one_stress) all.push_back({DoubtKind::few_shear_tests, {fit.tests.size()}});
+  if (fit.tests.size() >= 3 && !any_stress_twice(tests))
+    all.push_back({DoubtKind::no_repeated_shear_tests, {fit.tests.size()}});
   return all;
 }
 

@@ -147,12 +147,13 @@ DriveErrors drive_errors(const Case& question, const DriveRecord& record, const 
   DriveErrors errors;
   errors.correlations = correlations_of(values, question.drive->errors);
   for (Uncertain& one : values) errors.moved.push_back(std::move(one.drive));
-  errors.travelled = error_of(errors, record.samples.back().travelled,
-                              [](const DriveRecord& r) { return std::optional(r.samples.back().travelled); });
-  if (std::ranges::none_of(errors.moved, [&](const MovedDrive& drive) {
+  if (std::ranges::any_of(errors.moved, [&](const MovedDrive& drive) {
         return drive.ends_otherwise(drive.lower, record.end) || drive.ends_otherwise(drive.higher, record.end);
       }))
-    errors.end_time = error_of(errors, record.end_time, [](const DriveRecord& r) { return std::optional(r.end_time); });
+    return errors;  // stuck and not stuck: no slope between them
+  errors.travelled = error_of(errors, record.samples.back().travelled,
+                              [](const DriveRecord& r) { return std::optional(r.samples.back().travelled); });
+  errors.end_time = error_of(errors, record.end_time, [](const DriveRecord& r) { return std::optional(r.end_time); });
   return errors;
 }
 

@@ -45,9 +45,9 @@ struct MovedDrive {
 struct DriveErrors {
   std::vector<MovedDrive> moved;    ///< each uncertain value, a soil that returns once; empty: all values are exact
   Eigen::MatrixXd correlations;     ///< of those, a row and a column each
-  std::optional<double> travelled;  ///< standard error of the way to the end [m]; none: nothing was moved, or a value
-                                    ///< without a drive on either side
-  std::optional<double> end_time;   ///< [s]; none too where some of the drives end in another way
+  std::optional<double> travelled;  ///< standard error of the way to the end [m]; none: nothing was moved, or some of
+                                    ///< the drives end in another way
+  std::optional<double> end_time;   ///< [s]; as that
 
   /// Whether some of the values err together.
   bool correlated() const { return !correlations.isIdentity(0.0); }

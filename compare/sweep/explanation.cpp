@@ -309,13 +309,18 @@ Step largest_thrust(const Facts& f) {
           remark};
 }
 
+/// Whether the wheel or the soil is of Zhou, Gao, Li, Hu: others have nothing to ask of their Eq. 5.
+bool is_the_papers(const Scenario& scenario) {
+  return scenario.tire.name.starts_with("paper-") || scenario.soil.name.starts_with("paper-");
+}
+
 std::vector<Step> closed_forms(const Facts& f, const TractionResult& result) {
   const SoilValues& soil = f.declared;
   const double z0 = bekker_wong::bekker_static_sinkage(soil, f.r, f.b, f.at.load), n = soil.exponent;
   const double rolling = bekker_wong::rolling_resistance(soil, f.r, f.b, f.at.load);
   const double critical = bekker_wong::critical_ground_pressure(soil, f.r, f.b, f.at.load);
   const double eq5 = bekker_wong::paper::sinkage(soil, f.r, f.b, f.at.load, f.at.slip, f.theta_m);
-  return {
+  std::vector<Step> steps = {
       {"Bekker's static sinkage", "z_0 = [3 W/((3 - n) b k sqrt(D))]^(2/(2n + 1))",
        fmt::format("[3 * {:.4g} N / ({:.4g} * {:.4g} m * k * sqrt({:.4g} m))]^{:.4g}", f.at.load, 3 - n, f.b, 2 * f.r,
                    2 / (2 * n + 1)),
@@ -325,11 +330,14 @@ std::vector<Step> closed_forms(const Facts& f, const TractionResult& result) {
        fmt::format("the model's compaction resistance is {:.4g} N", -f.wheel.forces.compaction)},
       {"critical ground pressure", "p_gcr = k z_0^n", fmt::format("k ({:.4g} m)^{:.4g}", z0, n), critical / 1000, "kPa",
        pressure_remark(f.scenario, f.at, critical, largest_stress(f))},
-      largest_thrust(f),
-      {"Eq. 5 of Zhou, Gao, Li, Hu as it stands", "z = z_0 + (D/2) (1 - i) theta_m",
-       fmt::format("{:.4g} mm + {:.4g} mm * {:.4g} * {:.4g} rad", 1000 * z0, 1000 * f.r, 1 - f.at.slip, f.theta_m),
-       1000 * eq5, "mm",
-       "faulty: its second term is an arc length, not a depth, and falls with slip where measured sinkage rises"}};
+      largest_thrust(f)};
+  if (is_the_papers(f.scenario))
+    steps.push_back(
+        {"Eq. 5 of Zhou, Gao, Li, Hu as it stands", "z = z_0 + (D/2) (1 - i) theta_m",
+         fmt::format("{:.4g} mm + {:.4g} mm * {:.4g} * {:.4g} rad", 1000 * z0, 1000 * f.r, 1 - f.at.slip, f.theta_m),
+         1000 * eq5, "mm",
+         "faulty: its second term is an arc length, not a depth, and falls with slip where measured sinkage rises"});
+  return steps;
 }
 
 void append(std::vector<Step>& all, std::vector<Step> more) {

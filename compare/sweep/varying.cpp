@@ -243,6 +243,23 @@ std::string in_words(const OperatingCondition& at) {
   return words;
 }
 
+std::string shared_in_words(const std::vector<OperatingCondition>& conditions, bool with_slip) {
+  const OperatingCondition plain;
+  std::string load, slip, rest;
+  for (const ConditionAxis& axis : axes()) {
+    const double value = axis.get(conditions.front());
+    if (std::ranges::any_of(conditions, [&](const OperatingCondition& at) { return axis.get(at) != value; })) continue;
+    if (axis.view.name == "load")
+      load = ", load " + newtons(value, 6);
+    else if (axis.view.name == "slip")
+      slip = with_slip ? ", " + axis.label(value) : "";
+    else if (value != axis.get(plain))
+      rest += ", " + axis.label(value);
+  }
+  const std::string words = load + slip + rest;
+  return words.empty() ? "" : words.substr(2);
+}
+
 bool alike(const OperatingCondition& a, const OperatingCondition& b) {
   bool agree = true;
   const auto near = [](double x, double y) { return std::abs(x - y) <= 1e-9 * std::max(std::abs(x), std::abs(y)); };

@@ -52,6 +52,10 @@ std::string errors_in_words(const Case& question);
 /// The condition in words, with what is not at its default: "load 80 N, slip 20 %, yaw 5 deg".
 std::string in_words(const OperatingCondition& at);
 
+/// What all of them share, with what is not at its default: "load 80 N, yaw 5 deg"; "" for nothing. `with_slip`: the
+/// slip too, where it is one.
+std::string shared_in_words(const std::vector<OperatingCondition>& conditions, bool with_slip);
+
 /// Whether two conditions agree as far as a person who types numbers can tell: to 1e-9 of each number.
 bool alike(const OperatingCondition& a, const OperatingCondition& b);
 

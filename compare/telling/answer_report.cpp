@@ -54,14 +54,6 @@ std::vector<std::string> why_it_pulls_without_slip(const ModelAnswers& model) {
   return {"At 0 % slip (v = r ω) the soil is still compacted and sheared along the contact, so the pull is not 0."};
 }
 
-/// "load 65 N" where all conditions have one load, "" for several, which the rows and curves tell apart.
-std::string only_load(const std::vector<OperatingCondition>& conditions) {
-  const double load = conditions.front().load;
-  return std::ranges::all_of(conditions, [&](const OperatingCondition& at) { return at.load == load; })
-             ? "load " + newtons(load, 6)
-             : "";
-}
-
 /// Of each model at its only condition.
 Sheet stresses_of(const std::vector<ModelAnswers>& study) {
   std::vector<LabelledPatch> patches;
@@ -133,12 +125,8 @@ std::string asked_in_words(const Case& question) {
 
 std::string title_of_question(const Case& question, bool with_slip) {
   std::string title = fmt::format("{} on {}", question.scenario.tire.name, in_words(question.scenario.soil));
-  const std::vector<OperatingCondition>& all = question.study.conditions;
-  if (const std::string load = only_load(all); !load.empty()) title += ", " + load;
-  const double slip = all.front().slip;
-  if (with_slip && std::ranges::all_of(all, [&](const OperatingCondition& at) { return at.slip == slip; }))
-    title += fmt::format(", slip {:.4g} %", 100 * slip);
-  return title;
+  const std::string shared = shared_in_words(question.study.conditions, with_slip);
+  return shared.empty() ? title : title + ", " + shared;
 }
 
 std::vector<PrintedValue> printed_values(const TractionResult& r, ForcesIn told) {
@@ -242,8 +230,8 @@ Report report_on(const Case& question, const std::vector<ModelAnswers>& study) {
   }
   report.heading = asked_in_words(question) + "\n" + errors_in_words(question);
   const bool several = question.study.conditions.size() > 1;
-  if (const std::string load = only_load(question.study.conditions); several && !load.empty())
-    report.add(Sentences(std::vector{load}), Told::on_terminals);
+  if (const std::string shared = shared_in_words(question.study.conditions, false); several && !shared.empty())
+    report.add(Sentences(std::vector{shared}), Told::on_terminals);
   std::vector<ReportPart> parts;
   if (several) {
     parts = study_parts(study);
@@ -273,7 +261,9 @@ Report report_on(const Case& question, const StudyResults& results, const std::s
   if (const std::string errors = errors_in_words(question); !errors.empty())
     report.heading += "\n" + errors;  // grains say beside their answer where theirs come from
   if (results.step) report.heading += "\n" + step_in_words(*results.step);
-  report.parts = study_parts(results.study);
+  if (const std::string shared = shared_in_words(question.study.conditions, false); !shared.empty())
+    report.add(Sentences(std::vector{shared}));
+  for (ReportPart& part : study_parts(results.study)) report.parts.push_back(std::move(part));
   report.add(WarningsHere());
   report.sheet = drawn_once([&] { return plot_of_study(question, results.study); });
   if (curves_run_over(question.study.conditions) != nullptr)

@@ -27,8 +27,8 @@ std::vector<PrintedValue> printed_values(const TractionResult& result, ForcesIn 
 /// "tire radius 110 mm, width 100 mm on dry-sand": what was asked, as an answer's heading says it.
 std::string asked_in_words(const Case& question);
 
-/// "rover-wheel on dry-sand, load 65 N, slip 20 %": with the load and the slip that all conditions share; `with_slip`
-/// false: without.
+/// "rover-wheel on dry-sand, load 65 N, slip 20 %": with what all conditions share; `with_slip` false: but for the
+/// slip.
 std::string title_of_question(const Case& question, bool with_slip = true);
 
 /// A table of each model, a line an answer, the conditions that vary in the first columns.

@@ -291,6 +291,18 @@ SlidingMap sliding_map_of(const FailureMapResult& result) {
   return map;
 }
 
+/// Where the models agree, where no clause says it: a box is one only where a condition in it was run.
+std::string without_a_box(const FailureMapResult& result) {
+  constexpr double told = 0.005;  // of the range: what is 1 % in words
+  const double tolerance = 100 * result.question.tolerance;
+  if (result.shares.agree < told)
+    return fmt::format("Nowhere: no part of the range is within {:.3g} % of the load with 95 % confidence.", tolerance);
+  return fmt::format(
+      "Cell by cell: {} is within {:.3g} % of the load {} with 95 % confidence in {:.0f} % of the range, but in no box "
+      "of conditions that holds one that was run. The map on the page (--report) shows where.",
+      pull_of(result.map.of), tolerance, from_that_of(result.map.against), 100 * result.shares.agree);
+}
+
 std::string decided_sentence(const FailureMapResult& result) {
   const MapShares& shares = result.shares;
   return fmt::format(
@@ -303,13 +315,13 @@ std::string decided_sentence(const FailureMapResult& result) {
 /// well the map knows, what dimensionless groups do, what fresh conditions showed.
 std::vector<std::string> map_summary(const FailureMapResult& result) {
   std::vector<std::string> text = {rows_sentence(result)};
-  text.push_back(fmt::format("The error exceeds {:.3g} % of the load in {:.0f} % of the range.",
+  text.push_back(fmt::format("The error exceeds {:.3g} % of the load in {:.0f} % of the range by the best estimate.",
                              100 * result.question.tolerance, 100 * result.shares.beyond));
   text.push_back(decided_sentence(result));
   for (const AgreementClause& clause : result.clauses)
     text.push_back(fmt::format("{}: within {:.3g} % of the load {}.", result.question.name,
                                100 * result.question.tolerance, box_in_words(result.question, clause)));
-  if (result.clauses.empty()) text.push_back("No part of the range is within the tolerance with 95 % confidence.");
+  if (result.clauses.empty()) text.push_back(without_a_box(result));
   text.push_back(error_sentence(result) + " " + scatter_sentence(result));
   for (const std::string& more : {coordinates_sentence(result), checks_sentence(result)})
     if (!more.empty()) text.push_back(more);
@@ -325,17 +337,18 @@ std::vector<std::pair<std::string, std::string>> trust_in_words(const FailureMap
   std::string boxes;
   for (const AgreementClause& clause : result.clauses)
     boxes += (boxes.empty() ? "" : " Also ") + box_in_words(result.question, clause) + ".";
-  parts.emplace_back(
-      "Trust it",
-      result.clauses.empty()
-          ? fmt::format("Nowhere: no part of the range is within {:.3g} % of the load with 95 % confidence.", tolerance)
-          : fmt::format("{} is within {:.3g} % of the load {} with 95 % confidence {}", capital(pull_of(result.map.of)),
-                        tolerance, from_that_of(result.map.against), boxes));
+  parts.emplace_back("Trust it", result.clauses.empty()
+                                     ? without_a_box(result)
+                                     : fmt::format("{} is within {:.3g} % of the load {} with 95 % confidence {}",
+                                                   capital(pull_of(result.map.of)), tolerance,
+                                                   from_that_of(result.map.against), boxes));
   if (!grains.empty()) parts.back().second += " " + grains;
   const double beyond = 100 * result.shares.beyond;
-  parts.emplace_back("Do not trust it",
-                     fmt::format("The error exceeds {:.3g} % of the load in {:.0f} % of the range. {}", tolerance,
-                                 beyond, capital(rows_sentence(result))));
+  parts.emplace_back(
+      "Do not trust it",
+      fmt::format("The error exceeds {:.3g} % of the load in {:.0f} % of the range by the best estimate. "
+                  "{}",
+                  tolerance, beyond, capital(rows_sentence(result))));
   std::string sure = error_sentence(result);
   if (const std::string fresh = checks_sentence(result); !fresh.empty()) sure += " " + fresh;
   parts.emplace_back("How sure", decided_sentence(result) + " " + sure);
@@ -347,7 +360,8 @@ std::string in_short(const FailureMapResult& result) {
   const Tire& tire = result.map.scenario.tire;
   const double tolerance = 100 * result.question.tolerance;
   return fmt::format(
-      "{} is within {:.3g} % of the load {} in {:.0f} % of the range. {} Set the sliders to your lugs and slip{}.",
+      "{} is within {:.3g} % of the load {} in {:.0f} % of the range by the best estimate. {} Set the sliders to your "
+      "lugs and slip{}.",
       capital(pull_of(result.map.of)), tolerance, from_that_of(result.map.against), 100 * (1 - result.shares.beyond),
       decided_sentence(result),
       tire.lugs.height > 0.0

@@ -55,8 +55,16 @@ std::string within_in_words(const WheelLimits& answer) {
   return fmt::format("At up to {} % slip: {} deg.", slip, number(slope, 1 / degree));
 }
 
+/// The condition, without what limits look for and a speed that changes nothing.
+OperatingCondition limited_at(const WheelLimits& answer) {
+  OperatingCondition at = answer.at;
+  at.slip = at.longitudinal_incline = 0.0;
+  if (answer.at_every_speed) at.speed = OperatingCondition().speed;
+  return at;
+}
+
 Table slopes_table(const WheelLimits& answer) {
-  Table table{fmt::format("{}, load {:.6g} N", model_in_words(answer.model.label), answer.at.load),
+  Table table{fmt::format("{}, {}", model_in_words(answer.model.label), shared_in_words({limited_at(answer)}, false)),
               {"slope [deg]", "slip to climb it [%]", "largest pull [N]", "slip of the largest pull [%]"}};
   for (const SlopeRow& row : answer.slopes)
     table.add({number(row.slope / degree), slip_in_words(row), number({row.best.drawbar_pull, row.pull_error}),
@@ -148,7 +156,10 @@ Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& limits)
   const Axis slope{"slope [deg]"};
   const bool one_load = std::ranges::all_of(
       answers, [&](const WheelLimits& answer) { return answer.at.load == answers.front().at.load; });
-  Sheet sheet{title_of_question(question, false), {{"Largest pull [N]", slope, {}, {}}, {"Slip [%]", slope, {}, {}}}};
+  Case limited = question;
+  limited.study.conditions.clear();
+  for (const WheelLimits& answer : limits) limited.study.conditions.push_back(limited_at(answer));
+  Sheet sheet{title_of_question(limited, false), {{"Largest pull [N]", slope, {}, {}}, {"Slip [%]", slope, {}, {}}}};
   sheet.note = "bands: one standard error of the largest pull, from the standard deviations of the soil's values";
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const WheelLimits& answer = answers[i];

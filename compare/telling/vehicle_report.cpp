@@ -63,6 +63,10 @@ std::string angle_of(const VehicleLimit& limit) {
   return limit.angle ? number({limit.angle->value, told_error(limit.angle->std_error)}, 1 / degree) + " deg" : "none";
 }
 
+std::string too_fast_in_words(const VehicleAnswers& answers) {
+  return fmt::format("it does not hold {} m/s", number(answers.question.condition.speed, 3));
+}
+
 std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
   std::vector<BackedSentence> said;
   if (answers.steady) {
@@ -70,12 +74,18 @@ std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
     const bool kilo = std::abs(v.power.into_wheels) >= 1000.0;
     const double unit = kilo ? 1000.0 : 1.0;
     const char* prefix = kilo ? "k" : "";
-    said.push_back(
-        {"It travels", fmt::format("The drive line slips by {} %; the wheels take {} {}W, {} {}J a metre.",
-                                   number({v.slip, told_error(answers.errors.slip)}, 100),
-                                   number({v.power.into_wheels, told_error(answers.errors.into_wheels)}, 1 / unit),
-                                   prefix, number(v.power.into_wheels / v.at.speed / unit, 3), prefix)});
-    if (answers.power_speed)
+    if (!answers.holds_speed())
+      said.push_back(
+          {capital(too_fast_in_words(answers)),
+           fmt::format("That takes {} {}W at the wheels, and {} {}W reach them, enough for {} m/s.",
+                       number({v.power.into_wheels, told_error(answers.errors.into_wheels)}, 1 / unit), prefix,
+                       number(*answers.question.power / unit, 3), prefix, number(*answers.power_speed, 3))});
+    said.push_back({answers.holds_speed() ? "It travels" : "At that speed",
+                    fmt::format("The drive line slips by {} %; the wheels take {} {}W, {} {}J a metre.",
+                                number({v.slip, told_error(answers.errors.slip)}, 100),
+                                number({v.power.into_wheels, told_error(answers.errors.into_wheels)}, 1 / unit), prefix,
+                                number(v.power.into_wheels / v.at.speed / unit, 3), prefix)});
+    if (answers.power_speed && answers.holds_speed())
       said.push_back({"Power", fmt::format("All of it is used at {} m/s.", number(*answers.power_speed, 3))});
     if (v.crab != 0.0)
       said.push_back(
@@ -236,12 +246,28 @@ HeatMap heat_map_of_go(const GoMap& map) {
     std::vector<HeatCell>& row = heat.cells.emplace_back();
     for (std::size_t k = 0; k < map.headings.size(); ++k) {
       const double chance = map.cells[i][k].chance;
-      row.push_back({2 * chance - 1, fmt::format("{:.0f}", 100 * chance),
+      row.push_back({1 - 2 * chance, fmt::format("{:.0f}", 100 * chance),
                      fmt::format("slope {} deg, heading {} deg: goes on {:.0f} % of the soils",
                                  degrees_text(map.slopes[i]), degrees_text(map.headings[k]), 100 * chance)});
     }
   }
   return heat;
+}
+
+/// The other wheel of a wheel's axle.
+std::optional<std::size_t> beside(const VehicleAnswers& answers, std::size_t wheel) {
+  for (std::size_t i = 0; i < answers.wheels.size(); ++i)
+    if (i != wheel && answers.wheels[i].axle == answers.wheels[wheel].axle) return i;
+  return {};
+}
+
+/// Whether two wheels sink alike at every slip, so that one curve is both.
+bool sink_alike(const VehicleAnswers& answers, std::size_t a, std::size_t b) {
+  constexpr double seen = 1e-6;  // [m]
+  return std::ranges::all_of(answers.pulls, [&](const VehiclePullRow& row) {
+    return !row.vehicle ||
+           std::abs(row.vehicle->wheels[a].result.sinkage.value - row.vehicle->wheels[b].result.sinkage.value) < seen;
+  });
 }
 
 Sheet vehicle_sheet(const VehicleAnswers& answers) {
@@ -256,14 +282,20 @@ Sheet vehicle_sheet(const VehicleAnswers& answers) {
     pull.error.push_back(told_error(row.pull_error));
   }
   sheet.plots[0].series.push_back(std::move(pull));
+  int curves = 1;  // the pull's colour is its own: the panels share a legend
   for (std::size_t i = 0; i < answers.wheels.size(); ++i) {
-    const auto number = static_cast<int>(i);
+    const std::optional<std::size_t> other = beside(answers, i);
+    const bool alike = other && sink_alike(answers, i, *other);
+    if (alike && *other < i) continue;
     sheet.plots[1].series.push_back(over_samples(
-        {.label = answers.wheels[i].name, .color = number % 6, .dash = number / 6}, answers.pulls,
-        [](const VehiclePullRow& row) { return 100 * row.slip; },
+        {.label = alike ? answers.question.axles[answers.wheels[i].axle].name : answers.wheels[i].name,
+         .color = curves % 6,
+         .dash = curves / 6},
+        answers.pulls, [](const VehiclePullRow& row) { return 100 * row.slip; },
         [i](const VehiclePullRow& row) {
           return row.vehicle ? 1e3 * row.vehicle->wheels[i].result.sinkage.value : not_a_number;
         }));
+    ++curves;
   }
   return sheet;
 }
@@ -348,6 +380,7 @@ Json vehicle_json(const VehicleAnswers& answers) {
   document["steady"] = answers.steady ? steady_vehicle_json(answers) : Json();
   document["failure"] = answers.failure ? failure_json(answers, *answers.failure) : Json();
   document["speed_at_largest_power"] = or_null(answers.power_speed);
+  document["holds_speed"] = answers.steady && answers.holds_speed();
   document["steepest"] = {{"up", limit_json(answers, answers.up)},
                           {"down", limit_json(answers, answers.down)},
                           {"across", limit_json(answers, answers.across)}};
@@ -411,7 +444,7 @@ Report report_on(const VehicleAnswers& answers) {
   if (answers.map) {
     report.add("Where it goes", map_table(*answers.map));
     report.add(Drawings{{heat_map_svg(heat_map_of_go(*answers.map))},
-                        "Orange: goes on more than half of the soils; blue: on fewer.",
+                        "Blue: goes on more than half of the soils; orange: on fewer.",
                         "chance-to-go",
                         true},
                Told::to_look_at);
@@ -420,6 +453,7 @@ Report report_on(const VehicleAnswers& answers) {
   report.sheet = drawn_once([&] { return vehicle_sheet(answers); });
   report.add("Against slip", Figure(report.sheet, "Band: one standard error of the pull."));
   if (answers.failure) report.no_answer = "does not travel: " + failure_in_words(answers, *answers.failure);
+  if (answers.steady && !answers.holds_speed()) report.no_answer = too_fast_in_words(answers) + ": too little power";
   report.data = [&answers] { return vehicle_json(answers); };
   report.csv = [&answers] { return vehicle_csv(answers); };
   return report;

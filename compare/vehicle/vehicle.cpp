@@ -104,6 +104,11 @@ VehicleCase parse_vehicle_case(const SourceText& source, const Library& library,
   return vehicle;
 }
 
+VehicleCase find_vehicle_case(const std::string& name, const Library& library, const EffectVocabulary& effects) {
+  return parse_vehicle_case(read_source_text(find_file(library, Shelf::vehicles, name), largest_yaml), library,
+                            effects);
+}
+
 std::vector<VehicleWheel> wheels_of(const VehicleCase& vehicle) {
   std::vector<VehicleWheel> wheels;
   for (std::size_t i = 0; i < vehicle.axles.size(); ++i) {

@@ -306,12 +306,12 @@ DrivenAnswers driven_answers(const VehicleCase& question, const std::vector<Vehi
     if (progress) progress(answers.record->end_time, question.drive.duration);
   }
   if (answers.moved.empty()) return answers;
-  answers.travelled_error = error_over(answers.moved, &MovedVehicleDrive::Side::travelled);
   const auto ends_alike = [&](const MovedVehicleDrive& one) {
     return one.lower.end == answers.record->end && one.higher.end == answers.record->end;
   };
-  if (std::ranges::all_of(answers.moved, ends_alike))
-    answers.end_time_error = error_over(answers.moved, &MovedVehicleDrive::Side::end_time);
+  if (!std::ranges::all_of(answers.moved, ends_alike)) return answers;  // stuck and not stuck: no slope between them
+  answers.travelled_error = error_over(answers.moved, &MovedVehicleDrive::Side::travelled);
+  answers.end_time_error = error_over(answers.moved, &MovedVehicleDrive::Side::end_time);
   return answers;
 }
 

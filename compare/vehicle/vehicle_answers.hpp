@@ -99,6 +99,9 @@ struct VehicleAnswers {
   VehicleLimit up{}, down{}, across{};  ///< straight up, straight down, level across, with the pull that is asked
   std::optional<GoMap> map{};           ///< where one was asked for; answers_of makes none
   std::optional<double> power_speed{};  ///< at which the largest power is used up [m/s]; where there is one
+
+  /// Whether the largest power holds the condition's speed; where it travels.
+  bool holds_speed() const { return !power_speed || *power_speed >= question.condition.speed; }
 };
 
 /// Everything. Throws InputError for a soil without semi_empirical values.
@@ -135,8 +138,9 @@ struct DrivenAnswers {
   std::optional<VehicleFailure> failure{};  ///< why it does not stand at its start; then there is no record
   VehicleLimit up{};                        ///< what it climbs in a steady state, with the condition's pull
   std::vector<MovedVehicleDrive> moved{};
-  std::optional<double> travelled_error{};  ///< standard error of the way to the end [m]; none: a value without a drive
-  std::optional<double> end_time_error{};   ///< [s]; none too where some of the drives end in another way
+  std::optional<double> travelled_error{};  ///< standard error of the way to the end [m]; none where some of the drives
+                                            ///< end in another way, or do not stand
+  std::optional<double> end_time_error{};   ///< [s]; as that
 };
 
 /// The drive, and again for its errors: each doubtful value a standard deviation lower and higher, all taken as

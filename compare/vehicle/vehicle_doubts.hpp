@@ -1,4 +1,4 @@
-// What there is to doubt about a vehicle's answer.
+// What there is to doubt about a vehicle and its answer.
 #pragma once
 
 #include "compare/doubts/doubt.hpp"
@@ -6,8 +6,12 @@
 
 namespace soilbin::compare {
 
-/// `notes` (declare_tires), then doubts about the soil, the tires, and the answers of each axle's first wheel that is
-/// on the ground; each once.
+/// Of a vehicle by itself, whatever soil and tires: a centre of gravity that is not over its wheels or high over them,
+/// and what an axle's wheels carry on hard level ground, with nothing at the hitch.
+Doubts doubts(const VehicleCase& vehicle);
+
+/// `notes` (declare_tires), then doubts about the vehicle, the soil, the tires, and the answers of each axle's first
+/// wheel that is on the ground; each once.
 Doubts doubts_about(const VehicleAnswers& answers, Doubts notes);
 
 }  // namespace soilbin::compare

@@ -219,11 +219,8 @@ void bind_scenario(py::module_& module) {
 }
 
 void bind_library(py::module_& module) {
-  py::enum_<Shelf>(module, "Shelf", "The folders of a library of cases.")
-      .value("tires", Shelf::tires)
-      .value("soils", Shelf::soils)
-      .value("studies", Shelf::studies)
-      .value("measured", Shelf::measured);
+  py::enum_<Shelf> shelves(module, "Shelf", "The folders of a library of cases.");
+  for (const Shelf shelf : all_shelves) shelves.value(std::string(folder_of(shelf)).c_str(), shelf);
   module.def(
       "names", [](Shelf shelf) { return cases_library().names(shelf); }, py::arg("shelf"),
       "Every name on a shelf of the library, sorted.");

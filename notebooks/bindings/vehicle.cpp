@@ -11,7 +11,6 @@
 #include "compare/vehicle/vehicle_doubts.hpp"
 #include "notebooks/bindings/fields.hpp"
 #include "notebooks/bindings/scenario.hpp"
-#include "scenario/yaml_node.hpp"
 
 namespace soilbin::python {
 namespace {
@@ -54,6 +53,7 @@ Told driven(const VehicleCase& question, int samples, bool rigid, bool no_lugs, 
     Doubts notes = declare_tires(wheels, {.pressure = rigid, .lugs = no_lugs});
     const compare::DrivenAnswers answers = compare::driven_answers(
         question, wheels, wheel_model(), samples, [&watch](double time, double duration) { watch(time / duration); });
+    append(notes, compare::doubts(question));
     append(notes, compare::doubts(question.soil));
     return {compare::json_text(report_on(answers).data()), compare::in_words(once_each(notes))};
   });
@@ -115,11 +115,9 @@ void bind_vehicle(py::module_& module) {
       py::arg("text"), py::arg("file") = "vehicle.yaml",
       "A vehicle from its YAML; `file` is what errors name. Raises InputError with line and column.");
   module.def(
-      "read_vehicle",
-      [](const std::filesystem::path& file) {
-        return compare::parse_vehicle_case(read_source_text(file, largest_yaml), cases_library(), effect_vocabulary());
-      },
-      py::arg("file"), "A vehicle of a YAML file. Raises InputError with file, line and column.");
+      "find_vehicle",
+      [](const std::string& name) { return compare::find_vehicle_case(name, cases_library(), effect_vocabulary()); },
+      py::arg("name"), "A vehicle of the library, or of a YAML file. Raises InputError.");
   module.def("vehicle_on_soil", &vehicle_on_soil, py::arg("vehicle"), py::arg("map_samples"), py::arg("rigid"),
              py::arg("no_lugs"), py::arg("progress"), "Document and warnings; see soilbin.vehicle_on_soil.");
   module.def("drive_vehicle", &driven, py::arg("vehicle"), py::arg("samples"), py::arg("rigid"), py::arg("no_lugs"),

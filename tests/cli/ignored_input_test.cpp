@@ -71,6 +71,7 @@ const std::map<std::string, std::string>& samples() {
       {"--position", "2m"},
       {"--run", "4"},
       {"--effect", "slip_sinkage"},
+      {"--model", "rft"},
       {"--no-assumed-sd", ""},
       {"--rigid", ""},
       {"--no-lugs", ""},

@@ -94,7 +94,7 @@ TEST(Manual, CompletesInBash) {
 }
 
 TEST(List, EveryShelfAndTheCatalogue) {
-  for (const char* what : {"soils", "tires", "studies", "measured", "effects"}) {
+  for (const char* what : {"soils", "tires", "studies", "measured", "vehicles", "effects"}) {
     const Outcome r = soilbin(std::string("list ") + what);
     EXPECT_EQ(r.status, 0) << r.err;
     EXPECT_THAT(r.out, testing::Not(HasSubstr("unreadable"))) << what;
@@ -113,7 +113,7 @@ TEST(List, WithoutAWordTellsWhatEachNameIs) {
                            "Mars rover Curiosity", "Straight driving: drawbar pull"})
     EXPECT_THAT(r.out, HasSubstr(line));
   const nlohmann::json shelves = soilbin("list --json").json();
-  for (const char* shelf : {"soils", "tires", "studies", "measured"})
+  for (const char* shelf : {"soils", "tires", "studies", "measured", "vehicles"})
     for (const auto& entry : shelves[shelf]) EXPECT_NE(entry["description"], "") << entry["name"];
 }
 

@@ -44,6 +44,19 @@ TEST(ResistiveForceCommand, SaysWhatItTakesForASoilThatDeclaresNothing) {
   EXPECT_THAT(run.err, HasSubstr("are estimated from the soil's density and friction angle"));
 }
 
+TEST(ResistiveForceCommand, IsAskedByFlags) {
+  const Scratch scratch;
+  const std::string file = "'" + scratch.write("case.yaml", lugged_study(declared)).string() + "'";
+  const auto study = soilbin("run " + file + " --model rft --json").json().at("rows");
+  EXPECT_EQ(soilbin("estimate " + file + " --model rft --json").json().at("rows"), study);
+  const auto flags =
+      soilbin("estimate --tire 600-65R28 --soil dry-sand --load 25kN --slip 20% --model rft --json").json();
+  EXPECT_EQ(flags.at("rows").at(0).at("model"), "rft");
+  EXPECT_THAT(soilbin("estimate " + file + " --model rft --effect bulldozing").err,
+              HasSubstr("--effect means nothing to --model rft"));
+  EXPECT_THAT(soilbin("limits " + file + " --model rft").err, HasSubstr("soilbin estimate --model rft"));
+}
+
 TEST(ResistiveForceCommand, SaysThatItHasNoRut) {
   const Scratch scratch;
   const Outcome run =

@@ -11,7 +11,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-const std::string rover = "'" SOILBIN_SOURCE_DIR "/cases/vehicles/rover.yaml'";
+const std::string rover = "rover";
 
 TEST(VehicleCommand, TellsWhatTheRoverDoes) {
   const Outcome run = soilbin("vehicle " + rover);
@@ -105,6 +105,14 @@ TEST(VehicleCommand, SaysInTimeThatTheSoilDoesNotHoldIt) {
   EXPECT_EQ(run.status, 1);
   EXPECT_THAT(run.err, HasSubstr("does not stand at its start"));
   EXPECT_TRUE(run.json().at("end").is_null());
+}
+
+TEST(VehicleCommand, SaysThatThePowerDoesNotHoldTheSpeed) {
+  const Outcome fast = soilbin("vehicle truck --speed 100km/h --json");
+  EXPECT_EQ(fast.status, 1);
+  EXPECT_THAT(fast.err, HasSubstr("it does not hold 27.8 m/s: too little power"));
+  EXPECT_FALSE(fast.json().at("holds_speed").get<bool>());
+  EXPECT_TRUE(soilbin("vehicle truck --json").json().at("holds_speed").get<bool>());
 }
 
 TEST(VehicleCommand, ItsFileIsChecked) {

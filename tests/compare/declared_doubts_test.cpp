@@ -2,8 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "compare/doubt_matchers.hpp"
 #include "compare/doubts/doubts.hpp"
+#include "scenario/named_parts.hpp"
 #include "tests/fixtures.hpp"
 
 namespace soilbin::compare {
@@ -41,6 +44,22 @@ TEST(DeclaredDoubts, AStandardDeviationFarBeyondItsValueIsTold) {
   EXPECT_THAT(with_sd(&S::k_phi, 1.5e6, 7e5), IsEmpty());
   EXPECT_THAT(with_sd(&S::k_c, 1e3, 2e4), IsEmpty()) << "small beside k_phi";
   EXPECT_THAT(with_sd(&S::cohesion, 100, 500), IsEmpty()) << "little of what sand holds";
+}
+
+// k_phi in N for kN, or in kN for N: what presses a plate 100 mm wide in by 50 mm is beyond every soil of the library.
+TEST(DeclaredDoubts, ModuliAThousandTimesOffAreTold) {
+  SemiEmpiricalSoil soil = dry_sand();
+  for (Estimate* modulus : {&soil.k_c, &soil.k_phi}) modulus->value *= 1000;
+  const double pressure = (soil.k_c.value / 0.1 + soil.k_phi.value) * std::pow(0.05, soil.exponent.value) / 1000;
+  EXPECT_THAT(doubts(soil_of(soil)), ElementsAre(tells(DoubtKind::unusual_pressure, {pressure, 0.5, 3000})));
+  for (Estimate* modulus : {&soil.k_c, &soil.k_phi}) modulus->value /= 1e6;
+  EXPECT_THAT(doubts(soil_of(soil)), testing::Contains(tells(DoubtKind::unusual_pressure, {pressure / 1e6})));
+}
+
+TEST(DeclaredDoubts, NoSoilOfTheLibraryBearsAnUnusualPressure) {
+  const Library library({SOILBIN_SOURCE_DIR "/cases"});
+  for (const std::string& name : library.names(Shelf::soils))
+    EXPECT_FALSE(tell_of(doubts(find_soil(name, library)), DoubtKind::unusual_pressure)) << name;
 }
 
 TEST(DeclaredDoubts, AWheelByItselfIsJudgedToo) {

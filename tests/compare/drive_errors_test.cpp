@@ -59,7 +59,7 @@ TEST(DriveErrors, SayWhichValueEndsTheDriveInAnotherWay) {
   EXPECT_NE(part.errors.moved.front().lower.record.value().end, DriveEnd::time_is_up);
   EXPECT_EQ(part.errors.moved.front().higher.record.value().end, DriveEnd::time_is_up);
   EXPECT_FALSE(part.errors.end_time.has_value());
-  EXPECT_GT(*part.errors.travelled, 0.1 * part.record.samples.back().travelled);
+  EXPECT_FALSE(part.errors.travelled.has_value()) << "what a stuck wheel is short of is no standard error";
   EXPECT_THAT(text_of(report_on(part)),
               testing::HasSubstr("With the friction angle of dry-sand a standard deviation lower"));
 }

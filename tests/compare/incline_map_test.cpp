@@ -2,6 +2,7 @@
 // formula.
 #include "compare/failure_map/incline_map.hpp"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <stdlib.h>
 
@@ -261,6 +262,19 @@ TEST_F(SlowInclineMap, TellsItInWordsAsAPageAndAsJson) {
   EXPECT_EQ(page.find("Cross-validated error of the map"), page.rfind("Cross-validated error of the map"));
   EXPECT_THAT(page, HasSubstr("class=\"plot heat\""));
   EXPECT_THAT(page, HasSubstr("soilbin failure-map made"));
+}
+
+// No box of conditions that was run, and yet the models agree in some cells: the answer does not deny them.
+TEST_F(SlowInclineMap, WithoutABoxItSaysInHowMuchOfTheRangeTheModelsAgree) {
+  FailureMapResult result = learnt().result;
+  ASSERT_TRUE(result.clauses.empty());
+  ASSERT_GT(result.shares.agree, 0.1);
+  EXPECT_THAT(text_of(report_on(result, {"Map", "format: ..."})),
+              AllOf(HasSubstr(fmt::format("95 % confidence in {:.0f} % of the range, but in no box",
+                                          100 * result.shares.agree)),
+                    testing::Not(HasSubstr("Nowhere"))));
+  result.shares.agree = 0.0;
+  EXPECT_THAT(text_of(report_on(result, {"Map", "format: ..."})), HasSubstr("Nowhere: no part of the range"));
 }
 
 }  // namespace

@@ -458,6 +458,20 @@ TEST(DirtyPlates, ATestInAnotherUnitIsNamedAndSetAside) {
                                       HasSubstr("sinkage in cm for mm"), HasSubstr("it was set aside"))));
 }
 
+// Millimetres under a column in centimetres, of all tests, so that none disowns another: 320 mm under a plate of 100
+// mm.
+TEST(DirtyPlates, APlateThatSinksFarBeyondItsSizeIsDoubted) {
+  const auto fit_of = [](double factor) {
+    return fit_measured_plates(read_csv_of_plates(dirty_plates(4, [&](int, auto& readings) {
+      for (PlateReadingAt& reading : readings) reading.sinkage *= factor;
+    })));
+  };
+  const MeasuredPlatesFit clean = fit_of(1), off = fit_of(20);
+  EXPECT_FALSE(tell_of(doubts(clean), DoubtKind::sunk_beyond_plate));
+  EXPECT_NEAR(off.deepest, 20 * clean.deepest, 1e-12);
+  EXPECT_TRUE(tell_of(doubts(off), DoubtKind::sunk_beyond_plate));
+}
+
 // Re-tests that scatter as sand's do are none of them disowned, and one of four times the pressure is.
 TEST(DirtyPlates, ATestThatDisagreesIsNamedAndRepeatsAreNot) {
   std::mt19937_64 random(7);

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "compare/bevameter/plate_tests.hpp"
+#include "compare/doubt_matchers.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 
@@ -67,6 +69,18 @@ TEST(MeasuredShear, DoesNotPartCohesionFromFrictionUnderOneStress) {
   EXPECT_TRUE(fit.one_stress);
   EXPECT_EQ(fit.cohesion.value, 0.0);
   EXPECT_NEAR(std::tan(fit.friction_angle.value), std::tan(made_phi) + made_cohesion / 20e3, 1e-6);
+}
+
+// Three stresses once each, on a smooth line: what beds scatter is not in that. Where one was tested twice, it is.
+TEST(MeasuredShear, StressesThatWereNeverRepeatedAreTold) {
+  const auto told = [](const std::string& rows) {
+    const auto tests = read(rows);
+    return doubts(fit_measured_shear(tests), tests);
+  };
+  const std::string once = rows_of_a_test("a", 10e3, made_cohesion) + rows_of_a_test("b", 30e3, made_cohesion) +
+                           rows_of_a_test("c", 60e3, made_cohesion);
+  EXPECT_THAT(told(once), testing::ElementsAre(test::tells(DoubtKind::no_repeated_shear_tests, {3})));
+  EXPECT_THAT(told(once + rows_of_a_test("d", 31e3, made_cohesion)), testing::IsEmpty());
 }
 
 TEST(MeasuredShear, CutsACohesionBelowZeroOff) {

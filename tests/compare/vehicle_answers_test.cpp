@@ -1,15 +1,21 @@
 // What a vehicle can do at best, with errors; its file; and NASA's points of a rover on slopes.
+
 #include "compare/vehicle/vehicle_answers.hpp"
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
 #include "bekker_wong/effect_vocabulary.hpp"
 #include "bekker_wong/gsl.hpp"
 #include "bekker_wong/model.hpp"
+#include "compare/doubt_matchers.hpp"
+#include "compare/report/report.hpp"
 #include "compare/sweep/wheel_limits.hpp"
+#include "compare/telling/reports.hpp"
+#include "compare/vehicle/vehicle_doubts.hpp"
 #include "scenario/soil_parameters.hpp"
 #include "scenario/unit.hpp"
 #include "scenario/yaml_node.hpp"
@@ -28,8 +34,7 @@ VehicleCase vehicle_of(const std::string& text) {
 }
 
 VehicleCase library_vehicle(const std::string& name) {
-  return parse_vehicle_case(read_source_text(cases_folder + "/vehicles/" + name + ".yaml", largest_yaml),
-                            Library({cases_folder}), bekker_wong::CatalogueVocabulary());
+  return find_vehicle_case(name, Library({cases_folder}), bekker_wong::CatalogueVocabulary());
 }
 
 const std::string one_wheel = R"(format: soilbin-vehicle-case/1
@@ -131,6 +136,88 @@ TEST(VehicleAnswers, ThePowerTellsTheSpeed) {
   ASSERT_TRUE(answers.steady && answers.power_speed);
   vehicle.condition.speed = *answers.power_speed;
   EXPECT_NEAR(SteadyVehicles(vehicle, wheels, wheel_model).pulling(vehicle.condition).power.into_wheels, 20.0, 1e-6);
+  EXPECT_TRUE(answers.holds_speed());
+}
+
+TEST(VehicleAnswers, WithTooLittlePowerItDoesNotHoldItsSpeed) {
+  VehicleCase vehicle = library_vehicle("rover");
+  vehicle.power = 1.0;
+  const VehicleAnswers answers = answers_of(vehicle, wheels_of(vehicle), wheel_model);
+  ASSERT_TRUE(answers.steady);
+  EXPECT_LT(*answers.power_speed, vehicle.condition.speed);
+  EXPECT_FALSE(answers.holds_speed());
+  const Report report = report_on(answers);
+  EXPECT_EQ(report.no_answer, "it does not hold 0.100 m/s: too little power");
+  EXPECT_THAT(text_of(report),
+              testing::AllOf(HasSubstr("It does not hold 0.100 m/s: That takes "),
+                             HasSubstr("and 1.00 W reach them, enough for "), testing::Not(HasSubstr("It travels"))));
+}
+
+// Both sides of the rover roll alike: one curve an axle, of a colour that the pull has not.
+TEST(VehicleAnswers, WheelsThatSinkAlikeAreOneCurve) {
+  VehicleCase vehicle = library_vehicle("rover");
+  const auto labels = [&] {
+    const VehicleAnswers answers = answers_of(vehicle, wheels_of(vehicle), wheel_model);
+    const Sheet sheet = report_on(answers).sheet();
+    std::vector<std::string> all;
+    for (const Series& series : sheet.plots[1].series) {
+      all.push_back(series.label);
+      EXPECT_NE(series.color, sheet.plots[0].series[0].color);
+    }
+    return all;
+  };
+  EXPECT_THAT(labels(), testing::ElementsAre("front", "rear"));
+  vehicle.centre_of_gravity.y = 0.1;
+  EXPECT_THAT(labels(), testing::ElementsAre("front left", "front right", "rear left", "rear right"));
+}
+
+// At 26 deg the rover is stuck after some millimetres; with more friction it travels. What lies between is no error.
+TEST(VehicleAnswers, ADriveThatOtherSoilsEndOtherwiseHasNoError) {
+  VehicleCase vehicle = library_vehicle("rover");
+  const auto ends_otherwise = [](const DrivenAnswers& answers) {
+    return std::ranges::any_of(answers.moved, [&](const MovedVehicleDrive& one) {
+      return one.lower.end != answers.record->end || one.higher.end != answers.record->end;
+    });
+  };
+  vehicle.condition.slope = 26 * degree;
+  const DrivenAnswers stuck = driven_answers(vehicle, wheels_of(vehicle), wheel_model, 4);
+  ASSERT_TRUE(ends_otherwise(stuck));
+  EXPECT_FALSE(stuck.travelled_error || stuck.end_time_error);
+  vehicle.condition.slope = 0.0, vehicle.drive.duration = 4.0;
+  const DrivenAnswers level = driven_answers(vehicle, wheels_of(vehicle), wheel_model, 4);
+  ASSERT_FALSE(ends_otherwise(level));
+  EXPECT_GT(level.travelled_error.value(), 0.0);
+}
+
+// The rover's weight is in the middle of 1.2 m by 1.3 m and 0.6 m high: it would tip over across at atan(0.65/0.6).
+TEST(VehicleDoubts, AWeightThatIsNotOverItsWheelsIsTold) {
+  VehicleCase vehicle = library_vehicle("rover");
+  EXPECT_THAT(doubts(vehicle), testing::IsEmpty());
+  vehicle.centre_of_gravity.x = 1.5;
+  EXPECT_THAT(doubts(vehicle), testing::ElementsAre(test::tells(DoubtKind::beyond_wheels, {0.3, "ahead"})));
+  vehicle.centre_of_gravity = {0.6, -0.75, 0.6};
+  EXPECT_THAT(doubts(vehicle), testing::ElementsAre(test::tells(DoubtKind::beyond_wheels, {0.1, "to the right"})));
+  vehicle.centre_of_gravity = {0.6, 0.15, 6.0};
+  EXPECT_THAT(doubts(vehicle),
+              testing::ElementsAre(test::tells(DoubtKind::tips_easily, {6.0, 0.5, std::atan(0.5 / 6.0) / degree, 15})));
+}
+
+// A quarter of the rover's weight is 180 N: 3.6 kPa over a radius of 0.25 m and a width of 0.2 m.
+TEST(VehicleDoubts, ALoadThatNoSuchWheelCarriesIsTold) {
+  VehicleCase vehicle = library_vehicle("rover");
+  vehicle.mass = 0.734;
+  EXPECT_THAT(doubts(vehicle),
+              testing::ElementsAre(test::tells(DoubtKind::unusual_wheel_load, {"front", 1.8, 0.036, 0.5, 500})));
+  VehicleCase truck = library_vehicle("truck");
+  EXPECT_THAT(doubts(truck), testing::IsEmpty());
+  truck.mass *= 10;
+  EXPECT_THAT(doubts(truck), testing::ElementsAre(test::tells(DoubtKind::unusual_wheel_load, {"front"})))
+      << "at 450 kPa";
+}
+
+TEST(VehicleDoubts, NoVehicleOfTheLibraryHasOne) {
+  for (const std::string& name : Library({cases_folder}).names(Shelf::vehicles))
+    EXPECT_THAT(doubts(library_vehicle(name)), testing::IsEmpty()) << name;
 }
 
 TEST(GoMap, HasSlopeAndCrossSlopeOfEachHeading) {

@@ -129,7 +129,8 @@ class Answers(unittest.TestCase):
 
     def test_every_name_of_the_library_can_be_read(self):
         for shelf, read in ((soilbin.Shelf.tires, soilbin.find_tire), (soilbin.Shelf.soils, soilbin.find_soil),
-                            (soilbin.Shelf.studies, soilbin.find_case), (soilbin.Shelf.measured, compare.find_campaign)):
+                            (soilbin.Shelf.studies, soilbin.find_case), (soilbin.Shelf.vehicles, soilbin.find_vehicle),
+                            (soilbin.Shelf.measured, compare.find_campaign)):
             self.assertGreater(len(soilbin.names(shelf)), 0)
             for name in soilbin.names(shelf):
                 self.assertEqual(read(name).name, name)
@@ -849,16 +850,14 @@ class Exports(unittest.TestCase):
 
 
 class Vehicles(unittest.TestCase):
-    FILE = str(Path(__file__).parents[2] / "cases/vehicles/rover.yaml")
-
     def rover(self, slope=0.0):
-        rover = soilbin.read_vehicle(self.FILE)
+        rover = soilbin.find_vehicle("rover")
         rover.condition.slope = math.radians(slope)
         return rover
 
     def test_a_vehicle_is_the_commands(self):
         answer = soilbin.vehicle_on_soil(self.rover(5))
-        known = command("vehicle", self.FILE, "--slope", "5deg")
+        known = command("vehicle", "rover", "--slope", "5deg")
         self.assertEqual(answer["steepest"], known["steepest"])
         self.assertEqual(answer["pulls"], known["pulls"])
         frame = soilbin.wheels_frame(answer)
@@ -887,7 +886,7 @@ class Vehicles(unittest.TestCase):
         drive = soilbin.drive_vehicle(rover, 100)
         self.assertEqual(len(drive["samples"]["time_s"]), 101)
         self.assertLess(drive["travelled"], 0.1 * 10.0)
-        known = command("vehicle", self.FILE, "--drive", "--slope", "5deg")
+        known = command("vehicle", "rover", "--drive", "--slope", "5deg")
         self.assertEqual(soilbin.drive_vehicle(self.rover(5))["travelled"], known["travelled"])
 
     def test_a_map_is_told_with_its_progress(self):

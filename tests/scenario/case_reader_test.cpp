@@ -191,6 +191,9 @@ TEST(CaseReader, MissingKeysAreNamed) {
 TEST(CaseReader, FormatsAreChecked) {
   EXPECT_THAT(refused(with("soilbin-case/1", "soilbin-case/2")),
               StartsWith("case.yaml:1:9: unknown format 'soilbin-case/2': expected 'soilbin-case/1'"));
+  EXPECT_THAT(refused(with("soilbin-case/1", "soilbin-vehicle-case/1")),
+              HasSubstr("hint: that is a vehicle on a soil: soilbin vehicle case.yaml"));
+  EXPECT_THAT(refused(with("soilbin-case/1", "soilbin-soil/1")), HasSubstr("hint: that is a soil: --soil case.yaml"));
   EXPECT_THAT(refused("name: x\n"), HasSubstr("key 'format' is missing"));
 }
 

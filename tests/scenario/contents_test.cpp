@@ -15,8 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-constexpr Shelf shelves[] = {Shelf::tires, Shelf::soils, Shelf::studies, Shelf::measured};
-
 std::vector<std::string> names_in(const std::vector<ContentsSection>& sections) {
   std::vector<std::string> names;
   for (const ContentsSection& section : sections)
@@ -26,7 +24,7 @@ std::vector<std::string> names_in(const std::vector<ContentsSection>& sections) 
 
 TEST(Contents, OfTheLibraryListEveryNameInASectionWithALine) {
   const fs::path cases = SOILBIN_SOURCE_DIR "/cases";
-  for (const Shelf shelf : shelves)
+  for (const Shelf shelf : all_shelves)
     for (const ContentsSection& section : contents_of({cases}, shelf)) {
       EXPECT_NE(section.title, "Others") << folder_of(shelf) << ": " << section.lines.front().name << " is not listed";
       if (shelf == Shelf::studies) continue;  // a study says itself what it asks

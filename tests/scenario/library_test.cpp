@@ -36,6 +36,7 @@ TEST(Library, ListsNames) {
   EXPECT_THAT(library().names(Shelf::soils), Contains("dry-sand"));
   EXPECT_THAT(library().names(Shelf::studies), Contains("paper-straight"));
   EXPECT_THAT(library().names(Shelf::measured), Contains("cmu-smooth"));
+  EXPECT_THAT(library().names(Shelf::vehicles), Contains("truck"));
   EXPECT_TRUE(Library({"no/such/folder"}).names(Shelf::tires).empty());
 }
 
@@ -60,6 +61,13 @@ TEST(Library, FindsTheFileBehindANameOrAPath) {
   EXPECT_THAT(
       test::refusal([] { find_file(library(), Shelf::measured, "rover-climb"); }),
       HasSubstr("no campaign 'rover-climb' in the library: that is a study\n  hint: there are cmu-grousered, "));
+}
+
+TEST(Library, SaysWhatTakesAVehicleAndWhatAVehicleIsNot) {
+  EXPECT_THAT(test::refusal([] { find_file(library(), Shelf::studies, "truck"); }),
+              HasSubstr("no study 'truck' in the library: that is a vehicle\n  hint: soilbin vehicle truck takes it"));
+  EXPECT_THAT(test::refusal([] { find_file(library(), Shelf::vehicles, "trukc"); }),
+              HasSubstr("no vehicle 'trukc' in the library, and no such file, did you mean 'truck'?"));
 }
 
 TEST(Library, CountsItsNamesWhereALineDoesNotHoldThem) {

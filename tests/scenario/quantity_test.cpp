@@ -182,6 +182,9 @@ TEST(Quantity, APercentageWithoutItsSignIsGuessed) {
   const Measure poisson_ratio{"-", {.lower = -1.0, .upper = 0.5}};
   EXPECT_THAT(test::refusal([&] { read_quantity("0.6", poisson_ratio); }),
               testing::Not(testing::HasSubstr("did you mean")));
+  const Measure exponent{"-", {.lower = 0.05, .upper = 5.0}};
+  EXPECT_THAT(test::refusal([&] { read_quantity("9.42", exponent); }), testing::Not(testing::HasSubstr("did you mean")))
+      << "no share";
 }
 
 TEST(Quantity, AMisspeltUnitIsFirstComparedWithThoseOfItsDimension) {

@@ -67,10 +67,10 @@ from soilbin._soilbin import (
     find_case,
     find_soil,
     find_tire,
+    find_vehicle,
     in_words,
     parse_case,
     parse_vehicle,
-    read_vehicle,
     write_soil,
     write_tire,
 )
@@ -86,6 +86,6 @@ __all__ = [
     "VehiclePoint", "VehicleStop", "Waypoint", "__version__", "at_density",
     "bekker_wong", "cases_folders", "compare", "conditions", "dem",
     "doubts", "drive_vehicle", "effect_catalogue", "estimate", "export_fmi", "export_gazebo", "export_scm", "export_table", "find_case",
-    "find_soil", "find_tire", "in_words", "names", "parse_case", "parse_vehicle", "read_vehicle", "run_study", "sweep",
+    "find_soil", "find_tire", "find_vehicle", "in_words", "names", "parse_case", "parse_vehicle", "run_study", "sweep",
     "vehicle_on_soil", "wheels_frame", "write_soil", "write_tire",
 ]

@@ -83,13 +83,12 @@ def one_condition(at: Optional[OperatingCondition], keywords: dict[str, Any], hi
 
 
 def names(shelf: Union[Shelf, str]) -> list[str]:
-    """Every name on a shelf of the library, sorted: names("soils"); also tires, studies, measured."""
+    """Every name on a shelf of the library, sorted: names("soils"); also tires, vehicles, studies, measured."""
     if isinstance(shelf, Shelf):
         return _soilbin.names(shelf)
-    shelves = ("tires", "soils", "studies", "measured")
-    if shelf not in shelves:
-        raise _soilbin.InputError(f"no shelf {shelf!r}: there are {', '.join(shelves)}")
-    return _soilbin.names(getattr(Shelf, shelf))
+    if shelf not in Shelf.__members__:
+        raise _soilbin.InputError(f"no shelf {shelf!r}: there are {', '.join(Shelf.__members__)}")
+    return _soilbin.names(Shelf.__members__[shelf])
 
 
 def estimate(scenario: Scenario, at: Optional[OperatingCondition] = None, *, rigid: bool = False,

@@ -15,7 +15,7 @@ from soilbin.progress import Progress, told_to
 def checked_vehicle(vehicle: Vehicle) -> Vehicle:
     """The vehicle; a TypeError in plain words where it is something else."""
     if not isinstance(vehicle, Vehicle):
-        raise TypeError(f"vehicle: expected a Vehicle, such as soilbin.read_vehicle('truck.yaml'), not {vehicle!r}")
+        raise TypeError(f"vehicle: expected a Vehicle, such as soilbin.find_vehicle('truck'), not {vehicle!r}")
     return vehicle
 
 
@@ -29,7 +29,7 @@ def vehicle_on_soil(vehicle: Vehicle, *, map_samples: int = 0, rigid: bool = Fal
     SI and radians. Where the vehicle does not travel, `steady` is None and `failure` says why. Raises InputError for
     a soil without semi-empirical values. Warns (SoilbinWarning) as the command.
 
-        truck = soilbin.read_vehicle("cases/vehicles/truck.yaml")
+        truck = soilbin.find_vehicle("truck")
         truck.condition.slope = math.radians(5)
         soilbin.wheels_frame(soilbin.vehicle_on_soil(truck))
     """
@@ -50,6 +50,8 @@ def drive_vehicle(vehicle: Vehicle, samples: int = 400, *, rigid: bool = False, 
 
 def wheels_frame(answer: dict[str, Any]) -> pd.DataFrame:
     """The wheels of an answer of vehicle_on_soil that travels, a row each; SI. ValueError for another one."""
+    if not isinstance(answer, dict):
+        raise TypeError(f"answer: expected what vehicle_on_soil gives, not {answer!r}")
     if answer["steady"] is None:
         raise ValueError(f"this vehicle does not travel: {answer['failure']['text']}")
     return pd.json_normalize(answer["steady"]["wheels"])
