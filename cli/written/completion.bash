@@ -17,7 +17,7 @@ _soilbin() {
     return
   fi
   case "$before" in
-    --tire | --soil)
+    --tire | --soil | vehicle)
       mapfile -t names < <(soilbin list "${before#--}s" --names 2>/dev/null)
       _soilbin_offer "$word" "${names[@]}"
       return
