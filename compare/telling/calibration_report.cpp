@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bekker_wong/gsl.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/result_json.hpp"
@@ -124,6 +125,11 @@ std::string value_with_unit(const Estimate& value, const std::string& unit) {
   return number(value, per_unit(unit)) + unit_behind(unit);
 }
 
+std::string off_in_words(const Target& target, double off) {
+  return target.tolerance ? fmt::format("{:+.1f} tolerances", off / *target.tolerance)
+                          : fmt::format("{:+.1f} %", 100 * off / target.measured.value);
+}
+
 std::string misses(const VirtualTest& test, const Candidate& candidate) {
   std::string text;
   for (std::size_t t = 0; t < test.targets.size(); ++t) {
@@ -131,9 +137,7 @@ std::string misses(const VirtualTest& test, const Candidate& candidate) {
     const double off = candidate.predicted[t].value - target.measured.value;
     text += fmt::format("{}{} {} for {} ({})", t == 0 ? "" : ", ", target.name,
                         value_with_unit(candidate.predicted[t], target.unit),
-                        value_with_unit({target.measured.value, 0}, target.unit),
-                        target.tolerance ? fmt::format("{:+.1f} tolerances", off / *target.tolerance)
-                                         : fmt::format("{:+.1f} %", 100 * off / target.measured.value));
+                        value_with_unit({target.measured.value, 0}, target.unit), off_in_words(target, off));
   }
   return text;
 }
@@ -151,6 +155,12 @@ int fresh_runs(const Calibration& calibration) {
   for (const CalibrationRun& run : calibration.runs) fresh += !run.experiment.from_store;
   return fresh;
 }
+
+/// Chance of so large a chi square, a target a degree of freedom, below which the targets are out of reach.
+constexpr double unlikely = 0.003;
+
+/// So many targets are told in a table, fewer in a sentence.
+constexpr std::size_t many_targets = 4;
 
 /// How near every target has to come.
 std::string nearness(const VirtualTest& test, const CalibrationOptions& options) {
@@ -242,14 +252,15 @@ std::vector<std::string> calibration_sentences(const VirtualTest& test, const Ca
     said.push_back(fmt::format("Not reached in {} runs: every target within {} only {}.", calibration.runs.size(),
                                nearness(test, options), chance));
   said.push_back("Chosen: " + values_in_words(test, calibration.best.values) + ".");
-  said.push_back("It gives " + misses(test, calibration.best) + ".");
+  if (test.targets.size() < many_targets) said.push_back("It gives " + misses(test, calibration.best) + ".");
   for (std::string& sentence : sentences_on_settling(test, calibration)) said.push_back(std::move(sentence));
   for (std::string& sentence : sentences_on_decision(options, calibration)) said.push_back(std::move(sentence));
-  if (calibration.smallest_chi_square > 9)
+  if (gsl::chi_square_tail(calibration.smallest_chi_square, static_cast<double>(test.targets.size())) < unlikely)
     said.push_back(
         fmt::format("Nowhere between the bounds are the targets met (chi square at least {:.1f}): widen them.",
                     calibration.smallest_chi_square));
-  for (std::size_t t = 0; t < calibration.analyses.size(); ++t) said.push_back(order_sentence(test, calibration, t));
+  if (test.targets.size() < many_targets)
+    for (std::size_t t = 0; t < calibration.analyses.size(); ++t) said.push_back(order_sentence(test, calibration, t));
   if (calibration.analyses.empty())
     said.push_back("A run of the design failed, so it has no range analysis; the surrogate learnt from the others.");
   else
@@ -288,6 +299,17 @@ Table level_table(const VirtualTest& test, const Calibration& calibration, std::
     row.resize(table.header.size() - 3);
     variance_cells(row, analysis.variance.left);
     table.add(std::move(row));
+  }
+  return table;
+}
+
+Table targets_table(const VirtualTest& test, const Calibration& calibration) {
+  Table table{"Targets at the chosen point", {"", "measured", "grains", "off"}};
+  for (std::size_t t = 0; t < test.targets.size(); ++t) {
+    const Target& target = test.targets[t];
+    const double per = per_unit(target.unit), off = calibration.best.predicted[t].value - target.measured.value;
+    table.add({heading(target.name, target.unit), number(target.measured, per),
+               number(calibration.best.predicted[t], per), off_in_words(target, off)});
   }
   return table;
 }
@@ -484,9 +506,12 @@ Report report_on(const VirtualTest& test, const CalibrationOptions& options, con
   Report report{"A contact of grains, calibrated",
                 "Contact values of grains that give the measured targets, by virtual tests."};
   report.add(Sentences(calibration_sentences(test, options, calibration)));
-  for (std::size_t t = 0; t < calibration.analyses.size(); ++t)
-    report.add("What each factor does to " + test.targets[t].name, level_table(test, calibration, t));
+  const bool many = test.targets.size() >= many_targets;
+  if (many) report.add("Targets", targets_table(test, calibration));
   report.add("What the targets alone allow", allowed_table(test, calibration));
+  for (std::size_t t = 0; t < calibration.analyses.size(); ++t)
+    report.add("What each factor does to " + test.targets[t].name, level_table(test, calibration, t),
+               many ? Told::to_look_at : Told::everywhere);
   if (!calibration.candidates.empty()) report.add("Candidates", candidates_table(test, calibration));
   report.add("Runs", runs_table(test, calibration), with_runs ? Told::everywhere : Told::to_look_at);
   report.data = [&] { return to_json(test, options, calibration); };

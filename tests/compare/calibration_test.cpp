@@ -140,6 +140,27 @@ TEST(Calibration, ATargetWithAToleranceMayBeZero) {
   EXPECT_EQ(found.correlations(0, 0), 1);
 }
 
+// A sentence holds three targets; more stand in a table, and what each factor does to them on the page alone.
+TEST(Calibration, ManyTargetsAreToldInATable) {
+  VirtualTest test;
+  test.identity = "stand-in curves";
+  test.factors = {{"sliding_friction", 0, 1, "-"}, {"youngs_modulus", 1e9, 2e9, "GPa"}};
+  for (const char* name : {"peak_angle.A", "end_angle.A", "volume.A", "half_strain.A"})
+    test.targets.push_back({name, {0.5, 0.01}, "-", 0.02});
+  test.run = [](const VectorXd& v, std::uint64_t) {
+    return std::vector<Estimate>(4, Estimate{0.2 + 0.6 * v[0], 0.001});
+  };
+  ExperimentStore store;
+  const CalibrationOptions options;
+  const Calibration found = calibrate(test, options, store);
+  for (const std::string& sentence : calibration_sentences(test, options, found))
+    EXPECT_THAT(sentence, testing::Not(HasSubstr("end_angle.A")));
+  const std::string text = text_of(report_on(test, options, found, false));
+  EXPECT_THAT(text, HasSubstr("Targets at the chosen point"));
+  EXPECT_THAT(text, HasSubstr("What the targets alone allow"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("sum of squares")));
+}
+
 TEST(Calibration, StoppedAndResumedIsTheSameAndDoesNoWorkTwice) {
   const Folder folder;
   ExperimentStore fresh;
