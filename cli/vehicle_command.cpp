@@ -38,15 +38,14 @@ void refuse_what_the_drive_says(const VehicleOptions& options, const compare::Ve
 }
 
 int drive_in_time(const VehicleOptions& options, const compare::VehicleCase& question,
-                  const std::vector<compare::VehicleWheel>& wheels, const Model& model, compare::Doubts doubts,
+                  const std::vector<compare::VehicleWheel>& wheels, const Model& model, compare::Doubts notes,
                   const Session& session) {
   refuse_what_the_drive_says(options, question.drive);
   constexpr int intervals = 400;
   const compare::DrivenAnswers answers =
       compare::driven_answers(question, wheels, model, intervals, shown_progress_in_time());
-  append(doubts, compare::doubts(question));
-  append(doubts, compare::doubts(question.soil));
-  return publish(compare::report_on(answers), options.outputs, once_each(doubts), session).status(done);
+  return publish(compare::report_on(answers), options.outputs, doubts_about(answers, std::move(notes)), session)
+      .status(done);
 }
 
 int vehicle(const VehicleOptions& options, const Session& session) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "compare/bevameter/plate_tests.hpp"
@@ -95,13 +96,14 @@ class CompressionFile {
 
   std::vector<CompressionCurve> read(const std::vector<std::string>& names) const {
     std::vector<CompressionCurve> curves;
+    std::map<std::string, std::size_t> places;  // of the tests among the curves
     for (const CsvRow& row : table_.rows) {
       if (columns_.drainage && row.cells[*columns_.drainage].text != "drained") continue;
       const std::string& name = row.cells[columns_.test].text;
       if (!names.empty() && std::ranges::find(names, name) == names.end()) continue;
-      auto curve = std::ranges::find(curves, name, &CompressionCurve::test);
-      if (curve == curves.end()) curve = curves.insert(curves.end(), {.test = name, .confining = pressure_of(row)});
-      add(row, *curve);
+      const auto [place, is_new] = places.try_emplace(name, curves.size());
+      if (is_new) curves.push_back({.test = name, .confining = pressure_of(row)});
+      add(row, curves[place->second]);
     }
     refuse_unusable(curves, names);
     return curves;
@@ -170,7 +172,7 @@ class CompressionFile {
     for (const std::string& name : names)
       if (std::ranges::find(known, name) == known.end()) {
         std::vector<std::string> all;
-        for (const CompressionCurve& curve : CompressionFile(csv_).read({})) all.push_back(curve.test);
+        for (const CompressionCurve& curve : read({})) all.push_back(curve.test);
         throw InputError(fmt::format("--tests: {}: {}", csv_.file, none_of(name, all)));
       }
     if (curves.empty()) csv_.refuse(at, "no drained test", columns_hint);
@@ -219,9 +221,8 @@ CompressionCurve curve_of(const dem::TriaxialRun& run) {
   CompressionCurve curve{.test = fmt::format("packing {}", run.packing), .confining = run.stress};
   curve.void_ratio = run.void_ratio;
   for (const dem::TriaxialSample& sample : run.curve) {
-    const double lateral = (sample.lateral_x + sample.lateral_y) / 2.0;
     curve.strain.push_back(sample.strain);
-    curve.sine.push_back((sample.axial - lateral) / (sample.axial + lateral));
+    curve.sine.push_back(sample.sine());
     curve.volumetric.push_back(sample.volumetric);
   }
   return curve;

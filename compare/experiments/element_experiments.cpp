@@ -65,6 +65,11 @@ VirtualTest test_of(const ElementExperiment& experiment, std::string identity) {
   return test;
 }
 
+/// Each seed of an experiment has packings of its own.
+std::uint64_t first_packing(std::uint64_t seed, int packings) {
+  return 1 + (seed - 1) * static_cast<std::uint64_t>(packings);
+}
+
 /// A run that the engine had to stop is an experiment without an answer.
 template <class Run>
 std::vector<Estimate> answered(const Run& run) {
@@ -128,7 +133,7 @@ VirtualTest strength_test(const char* name, const ElementExperiment& experiment,
   test.run = [=](const VectorXd& values, std::uint64_t seed) {
     return answered([&] {
       Settings own = settings;
-      own.specimen.packing = 1 + (seed - 1) * static_cast<std::uint64_t>(settings.packings);
+      own.specimen.packing = first_packing(seed, settings.packings);
       const auto result = answer_of(with_values(experiment, ContactKind::grain_grain, values), own, experiment.how);
       const dem::StrengthLine& line = strength == Strength::peak ? result.peak : result.residual;
       std::vector<Estimate> answer;
@@ -181,7 +186,7 @@ VirtualTest tilting_board_test(const ElementExperiment& experiment, const dem::T
       std::vector<double> angles;
       for (int k = 0; k < packings; ++k) {
         dem::TiltingBoardSettings own = settings;
-        own.packing = 1 + (seed - 1) * static_cast<std::uint64_t>(packings) + static_cast<std::uint64_t>(k);
+        own.packing = first_packing(seed, packings) + static_cast<std::uint64_t>(k);
         const dem::TiltingBoardResult result =
             dem::tilting_board(with_values(experiment, ContactKind::grain_tire, values), own, experiment.how);
         if (!result.slid) throw NoSolution("the sand holds up to the steepest tilt");
@@ -213,7 +218,7 @@ VirtualTest curve_test(const ElementExperiment& experiment, const ContactQuestio
   test.run = [=](const VectorXd& values, std::uint64_t seed) {
     return answered([&] {
       dem::TriaxialSettings own = settings;
-      own.specimen.packing = 1 + (seed - 1) * static_cast<std::uint64_t>(settings.packings);
+      own.specimen.packing = first_packing(seed, settings.packings);
       for (std::size_t j = 0; j < experiment.factors.size(); ++j)
         if (experiment.factors[j].name == settling_friction_factor)
           own.specimen.settling_friction = values[static_cast<Eigen::Index>(j)];

@@ -170,10 +170,7 @@ Report report_on(const dem::TriaxialResult& result, const std::string& soil) {
                     {"lateral_y", column(run.curve, &Sample::lateral_y)}});
     const auto percent = times(&Sample::strain, 100);
     const std::string label = fmt::format("{} kPa, specimen {}", number(run.stress / 1e3), run.packing);
-    add_line(stress, label, run.curve, percent, [](const Sample& s) {
-      const double lateral = (s.lateral_x + s.lateral_y) / 2;
-      return (s.axial - lateral) / (s.axial + lateral);
-    });
+    add_line(stress, label, run.curve, percent, [](const Sample& s) { return s.sine(); });
     add_line(volume, label, run.curve, percent, times(&Sample::volumetric, 100));
   }
   return report_of("triaxial", soil, std::move(table), std::move(sentences),

@@ -94,4 +94,10 @@ Doubts doubts_about(const VehicleAnswers& answers, Doubts notes) {
   return once_each(notes);
 }
 
+Doubts doubts_about(const DrivenAnswers& answers, Doubts notes) {
+  append(notes, doubts(answers.question));
+  append(notes, doubts(answers.question.soil));
+  return once_each(notes);
+}
+
 }  // namespace soilbin::compare

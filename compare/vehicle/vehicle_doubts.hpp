@@ -13,5 +13,7 @@ Doubts doubts(const VehicleCase& vehicle);
 /// `notes` (declare_tires), then doubts about the vehicle, the soil, the tires, and the answers of each axle's first
 /// wheel that is on the ground; each once.
 Doubts doubts_about(const VehicleAnswers& answers, Doubts notes);
+/// Of a drive: `notes`, then doubts about the vehicle and the soil; each once.
+Doubts doubts_about(const DrivenAnswers& answers, Doubts notes);
 
 }  // namespace soilbin::compare

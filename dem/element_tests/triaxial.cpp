@@ -185,10 +185,9 @@ void PressedSpecimen::compress(TriaxialRun& run) {
 void PressedSpecimen::summarise(TriaxialRun& run) const {
   std::vector<double> strain, sine, confining;
   for (const TriaxialSample& sample : run.curve) {
-    const double s3 = (sample.lateral_x + sample.lateral_y) / 2;
     strain.push_back(sample.strain);
-    sine.push_back((sample.axial - s3) / (sample.axial + s3));
-    confining.push_back(s3);
+    sine.push_back(sample.sine());
+    confining.push_back(sample.lateral());
   }
   const Mobilised found = peak_and_residual(strain, sine, settings_.peak_window, settings_.residual_share);
   run.peak = found.peak, run.residual = found.residual, run.peak_at = found.peak_at;

@@ -31,6 +31,10 @@ struct TriaxialSample {
   double strain = 0;                               ///< axial, logarithmic, compression positive
   double volumetric = 0;                           ///< -ln(V/V_0): negative where it dilates
   double axial = 0, lateral_x = 0, lateral_y = 0;  ///< stresses [Pa]
+
+  double lateral() const { return (lateral_x + lateral_y) / 2; }  ///< their mean [Pa]
+  /// (s1 - s3)/(s1 + s3): sine of the mobilised angle [-].
+  double sine() const { return (axial - lateral()) / (axial + lateral()); }
 };
 
 struct TriaxialRun {

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bekker_wong/effect_vocabulary.hpp"
@@ -39,6 +40,9 @@ void bind_recorded(py::module_& module);
 void bind_calibration(py::module_& module);
 void bind_exports(py::module_& module);
 void bind_vehicle(py::module_& module);
+
+/// A document as JSON, and what the command would warn of.
+using Document = std::pair<std::string, std::vector<std::string>>;
 
 /// Where cases lie: $SOILBIN_CASES, the installation's, the source tree's.
 std::vector<std::filesystem::path> cases_folders();

@@ -21,11 +21,8 @@ using compare::Answer;
 using compare::Report;
 using File = std::optional<std::filesystem::path>;
 
-/// A document as JSON, and what the command would warn of.
-using Exported = std::pair<std::string, std::vector<std::string>>;
-
 /// The document of a report about these answers.
-Exported exported(const Report& report, const Case& question, const std::vector<compare::ModelAnswers>& answers) {
+Document exported(const Report& report, const Case& question, const std::vector<compare::ModelAnswers>& answers) {
   return {compare::json_text(report.data()), compare::in_words(compare::doubts(question, answers))};
 }
 
@@ -47,7 +44,7 @@ void write_where_named(const File& file, const Content& content) {
   if (file) write_file_atomically(*file, content());
 }
 
-Exported export_table(const Scenario& scenario, const std::vector<OperatingCondition>& at, ModelKind model,
+Document export_table(const Scenario& scenario, const std::vector<OperatingCondition>& at, ModelKind model,
                       const File& header, const File& csv, const File& hdf5, const py::object& progress) {
   Watch watch(progress);
   return unlocked([&] {
@@ -64,7 +61,7 @@ Exported export_table(const Scenario& scenario, const std::vector<OperatingCondi
   });
 }
 
-Exported export_fmi(const Scenario& scenario, const std::vector<OperatingCondition>& at, ModelKind model,
+Document export_fmi(const Scenario& scenario, const std::vector<OperatingCondition>& at, ModelKind model,
                     const std::filesystem::path& output, const py::object& progress) {
   Watch watch(progress);
   return unlocked([&] {
@@ -79,7 +76,7 @@ Exported export_fmi(const Scenario& scenario, const std::vector<OperatingConditi
   });
 }
 
-Exported export_gazebo(const Scenario& scenario, const OperatingCondition& at, const File& map,
+Document export_gazebo(const Scenario& scenario, const OperatingCondition& at, const File& map,
                        const std::vector<Soil>& soils, double size) {
   return unlocked([&] {
     const compare::WheelSlipFit fit = compare::wheel_slip_of(export_question(scenario, {at}, ModelKind::bekker_wong));
@@ -90,7 +87,7 @@ Exported export_gazebo(const Scenario& scenario, const OperatingCondition& at, c
   });
 }
 
-Exported export_scm(const Soil& soil, const File& output) {
+Document export_scm(const Soil& soil, const File& output) {
   if (!soil.semi_empirical)
     throw InputError("soil '" + soil.name + "' has no semi_empirical values, which SCM is made of");
   const std::string text = compare::json_text(compare::report_on_scm(soil, SOILBIN_VERSION).data());

@@ -19,9 +19,6 @@ using compare::Doubts;
 using compare::VehicleAxle;
 using compare::VehicleCase;
 
-/// A document as JSON, and what the command would warn of.
-using Told = std::pair<std::string, std::vector<std::string>>;
-
 std::vector<compare::VehicleWheel> wheels_with_tires(const VehicleCase& vehicle) {
   if (vehicle.axles.empty()) throw InputError("the vehicle has no axles");
   for (std::size_t i = 0; i < vehicle.axles.size(); ++i)
@@ -31,10 +28,10 @@ std::vector<compare::VehicleWheel> wheels_with_tires(const VehicleCase& vehicle)
 
 bekker_wong::BekkerWong wheel_model() { return bekker_wong::BekkerWong({.errors = false, .patch = false}); }
 
-Told vehicle_on_soil(const VehicleCase& question, int map_samples, bool rigid, bool no_lugs,
-                     const py::object& progress) {
+Document vehicle_on_soil(const VehicleCase& question, int map_samples, bool rigid, bool no_lugs,
+                         const py::object& progress) {
   Watch watch(progress);
-  return unlocked([&]() -> Told {
+  return unlocked([&]() -> Document {
     std::vector<compare::VehicleWheel> wheels = wheels_with_tires(question);
     Doubts notes = declare_tires(wheels, {.pressure = rigid, .lugs = no_lugs});
     const bekker_wong::BekkerWong model = wheel_model();
@@ -45,17 +42,15 @@ Told vehicle_on_soil(const VehicleCase& question, int map_samples, bool rigid, b
   });
 }
 
-Told driven(const VehicleCase& question, int samples, bool rigid, bool no_lugs, const py::object& progress) {
+Document driven(const VehicleCase& question, int samples, bool rigid, bool no_lugs, const py::object& progress) {
   if (samples < 1) throw InputError("samples: 1 or more");
   Watch watch(progress);
-  return unlocked([&]() -> Told {
+  return unlocked([&]() -> Document {
     std::vector<compare::VehicleWheel> wheels = wheels_with_tires(question);
     Doubts notes = declare_tires(wheels, {.pressure = rigid, .lugs = no_lugs});
     const compare::DrivenAnswers answers = compare::driven_answers(
         question, wheels, wheel_model(), samples, [&watch](double time, double duration) { watch(time / duration); });
-    append(notes, compare::doubts(question));
-    append(notes, compare::doubts(question.soil));
-    return {compare::json_text(report_on(answers).data()), compare::in_words(once_each(notes))};
+    return {compare::json_text(report_on(answers).data()), compare::in_words(doubts_about(answers, std::move(notes)))};
   });
 }
 
