@@ -187,7 +187,9 @@ void QuickModelFlag::apply(Case& question, bool names_effects) const {
   if (model_.empty()) return;
   if (model_ == word_of(ModelKind::dem))
     throw InputError("--model dem: grains are run, not estimated\n  hint: soilbin run CASE --model dem");
-  check_model(model_, {"bekker_wong", "rft", "cone_index"});
+  std::vector<std::string> names;
+  for (const ModelKind kind : quick_models) names.emplace_back(word_of(kind));
+  check_model(model_, names);
   const ModelKind kind = read_word<ModelKind>("--model", model_);
   if (names_effects && kind != ModelKind::bekker_wong)
     throw InputError(fmt::format("--effect means nothing to --model {}\n  hint: leave one of them out", model_));

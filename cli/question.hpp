@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -87,6 +88,9 @@ class TireFlags {
  private:
   compare::TireLeftOut left_out_;
 };
+
+/// Models that answer in milliseconds.
+inline constexpr std::array quick_models = {ModelKind::bekker_wong, ModelKind::rft, ModelKind::cone_index};
 
 /// --model of a quick answer: the analytic wheel's, or one of its own.
 class QuickModelFlag {

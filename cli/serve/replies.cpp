@@ -14,6 +14,7 @@
 #include "cli/serve/served_answer.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/report/page.hpp"
+#include "compare/sweep/answers.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/sweep/wheel_limits.hpp"
 #include "compare/telling/answer_report.hpp"
@@ -84,13 +85,21 @@ std::pair<double, double> take_slips(std::vector<Flag>& flags) {
   return read_range("slips", take(flags, "slips").value_or("0%..100%"), Measure{"-", {.lower = -1.0, .upper = 1.0}});
 }
 
-/// The question of a query and, where it says beside-soil=NAME or beside-tire=NAME, the same with that soil or tire.
+bool is_effect_flag(const std::string& key) { return key == "effect"; }
+
+std::string model_of(const Case& question) {
+  return compare::model_in_words(std::string(word_of(question.study.models.front().model)));
+}
+
+/// The question of a query and, where it says beside-soil=NAME, beside-tire=NAME or beside-model=NAME,
+/// a second one with that soil, tire or model.
 std::vector<ServedAnswer> answers_to(const Setup& setup, const std::string& query) {
   std::vector<Flag> flags = flags_of(query);
   const auto slips = take_slips(flags);
-  const std::optional<std::string> soil = take(flags, "beside-soil"), tire = take(flags, "beside-tire");
+  const std::optional<std::string> soil = take(flags, "beside-soil"), tire = take(flags, "beside-tire"),
+                                   model = take(flags, "beside-model");
   std::vector<ServedAnswer> sides = {answer_to(setup.ask(flags), slips)};
-  if (!soil && !tire) return sides;
+  if (!soil && !tire && !model) return sides;
   const auto replaced = [&](const std::optional<std::string>& name, const char* key, bool (*own)(const std::string&)) {
     if (!name) return;
     std::erase_if(flags, [&](const Flag& flag) { return flag.first == key || own(flag.first); });
@@ -98,11 +107,13 @@ std::vector<ServedAnswer> answers_to(const Setup& setup, const std::string& quer
   };
   replaced(soil, "soil", is_soil_flag);
   replaced(tire, "tire", is_tire_flag);
+  replaced(model, "model", is_effect_flag);
   sides.push_back(answer_to(setup.ask(flags), slips));
   for (ServedAnswer& one : sides) {
     const Scenario& scenario = one.asked.question.scenario;
     if (tire) one.label = scenario.tire.name;
     if (soil) one.label += (one.label.empty() ? "" : " on ") + compare::in_words(scenario.soil);
+    if (model) one.label += (one.label.empty() ? "" : ", ") + model_of(one.asked.question);
   }
   if (sides[0].label == sides[1].label) sides[1].label += " (beside)";
   return sides;
@@ -111,7 +122,9 @@ std::vector<ServedAnswer> answers_to(const Setup& setup, const std::string& quer
 std::string title_of(const Case& question) { return in_words(question.scenario.tire); }
 
 std::string question_in_words(const Case& question) {
-  return compare::asked_in_words(question) + ", " + compare::in_words(question.study.conditions.front());
+  const bool analytic = question.study.models.front().model == ModelKind::bekker_wong;
+  return compare::asked_in_words(question) + ", " + compare::in_words(question.study.conditions.front()) +
+         (analytic ? "" : ", by " + model_of(question));
 }
 
 /// What is said of a point without solution.
@@ -122,15 +135,16 @@ void add_refusal(Json& document, const ServedAnswer& one) {
   if (carried)
     document["hint"] = "at this slip the soil carries up to " + compare::newtons(*carried) + " under this wheel";
   else
-    document["hint"] = compare::any_result(one.curves) ? "the curves show the slips that have one"
-                                                       : "less load, another soil or other effects may have one";
+    document["hint"] = compare::any_result(one.curves)
+                           ? "the curves show the slips that have one"
+                           : "less load, another soil, other effects or another model may have one";
 }
 
 /// Self-contained HTML with the reports' style, charts and d3; where d3 isn't installed the page says so, and shows
 /// numbers without curves.
 std::string live_page(const Setup& setup) {
   compare::Page page(title_of(setup.ask({}).question),
-                     "By the analytic model of soilbin estimate: move a number, and everything follows.");
+                     "The answers of soilbin estimate: move a number, and everything follows.");
   const std::vector<compare::EmbeddedFile> own = live_files();
   page.raw("<style>\n" + compare::embedded(own, "live.css") + "</style>\n");
   if (!page.libraries().d3)
@@ -175,7 +189,7 @@ Reply estimate_reply(const Setup& setup, const std::string& query) {
 Reply case_reply(const Setup& setup, const std::string& query) {
   std::vector<Flag> flags = flags_of(query);
   const auto slips = take_slips(flags);
-  take(flags, "beside-soil"), take(flags, "beside-tire");
+  for (const char* beside : {"beside-soil", "beside-tire", "beside-model"}) take(flags, beside);
   return {200, "application/yaml", write_case(swept_over(setup.ask(flags).question, slips), setup.place().effects)};
 }
 

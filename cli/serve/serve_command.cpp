@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <memory>
+#include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
@@ -44,6 +45,8 @@ void add_serve(CLI::App& app, Session& session) {
   CLI::App* command =
       app.add_subcommand("serve", "a live page on this machine: move load, slip and soil, and the curves follow");
   const auto inputs = std::make_shared<Question>(*command);
+  const auto model = std::make_shared<QuickModelFlag>();
+  model->add_to(*command);
   const auto port = std::make_shared<int>(8080);
   add_value(*command, port_flag, *port, "WHOLE", "port of 127.0.0.1; 8080; 0: any free one")
       ->check(whole_number(0, 65535));
@@ -52,7 +55,7 @@ void add_serve(CLI::App& app, Session& session) {
       "          soilbin serve rover-slip --effect slip_sinkage\n"
       "          soilbin serve --soil dry-sand --tire rover-wheel --load 65N --slip 20% --port 0");
   command->callback([=, &session] {
-    session.action = [=, keep = inputs, &session] {
+    session.action = [=, keep = std::pair(inputs, model), &session] {
       return serve(*command, static_cast<unsigned short>(*port), session);
     };
   });

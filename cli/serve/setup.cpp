@@ -11,6 +11,7 @@
 #include "cli/outputs.hpp"
 #include "cli/question.hpp"
 #include "cli/serve/controls.hpp"
+#include "compare/sweep/answers.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/quantity.hpp"
@@ -86,6 +87,20 @@ bool holds(const std::vector<Flag>& flags, const std::string& key) {
   return std::ranges::any_of(flags, [&](const Flag& flag) { return flag.first == key; });
 }
 
+/// Whether the flags name a model that takes no effects.
+bool names_other_model(const std::vector<Flag>& flags) {
+  return std::ranges::any_of(
+      flags, [](const Flag& flag) { return flag.first == "model" && flag.second != word_of(ModelKind::bekker_wong); });
+}
+
+/// The models that answer while a slider moves.
+Json models_json() {
+  return compare::list_of(quick_models, [](ModelKind kind) {
+    const std::string name(word_of(kind));
+    return Json{{"name", name}, {"title", compare::model_in_words(name)}};
+  });
+}
+
 }  // namespace
 
 Setup::Setup(const Workplace& place, std::string case_name, std::vector<Flag> flags)
@@ -99,7 +114,8 @@ Setup::Setup(const Workplace& place, std::string case_name, std::vector<Flag> fl
   for (const Flag& flag : telling(*first, all))
     if (!holds(start_, flag.first) && !(turns && flag.first == "speed")) start_.push_back(flag);  // its speed follows
   const ModelChoice& model = question.study.models.front();
-  if (!holds(start_, "effect") && (question.study.models.size() > 1 || model.model != ModelKind::bekker_wong)) {
+  if (!holds(start_, "effect") && !names_other_model(start_) &&
+      (question.study.models.size() > 1 || model.model != ModelKind::bekker_wong)) {
     for (const EffectChoice& choice : model.effects)
       start_.emplace_back("effect", effect_word(choice, question.scenario.soil));
     if (model.effects.empty()) start_.emplace_back("effect", "none");
@@ -112,9 +128,10 @@ Asked Setup::put_together(const std::vector<Flag>& query) const {
   asked.words = {"estimate"};
   if (!case_name_.empty()) asked.words.push_back(case_name_);
   const bool other_tire = holds(query, "tire"), other_soil = holds(query, "soil");
+  const bool other_model = names_other_model(query);
   for (const Flag& flag : start_)
     if (!holds(query, flag.first) && !(other_tire && is_tire_flag(flag.first)) &&
-        !(other_soil && is_soil_flag(flag.first)))
+        !(other_soil && is_soil_flag(flag.first)) && !(other_model && flag.first == "effect"))
       asked.words.push_back("--" + flag.first + "=" + flag.second);
   for (const Flag& flag : query) asked.words.push_back("--" + flag.first + "=" + flag.second);
   CLI::App app("", asked.words.front());
@@ -122,6 +139,8 @@ Asked Setup::put_together(const std::vector<Flag>& query) const {
   Question question(app);
   TireFlags tire;
   tire.add_to(app);
+  QuickModelFlag model;
+  model.add_to(app);
   if (!query.empty()) question.allow_conditions(most_asked_at_once);  // a server is not kept busy by one address
   if (const std::string problem = unknown_flag(app, asked.words); !problem.empty()) throw InputError(problem);
   try {
@@ -130,6 +149,7 @@ Asked Setup::put_together(const std::vector<Flag>& query) const {
     throw InputError(refusal_of(error, "estimate "));
   }
   asked.question = question.ask(place_);
+  model.apply(asked.question, question.names_effects());
   asked.base_model = question.switches_effects_off();
   asked.tire = tire;
   return asked;
@@ -154,6 +174,8 @@ Json Setup::document() const {
           {"soil", compare::in_words(question.scenario.soil)},
           {"tires", place_.library.names(Shelf::tires)},
           {"soils", soils_json(place_.library)},
+          {"models", models_json()},
+          {"model", word_of(question.study.models.front().model)},
           {"numbers", numbers_json(question, force_unit_)},
           {"effects", effects_json(question)}};
 }

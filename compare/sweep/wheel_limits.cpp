@@ -227,6 +227,10 @@ std::vector<ModelAnswers> answers_on_slopes(const Case& question, const std::vec
   return study;
 }
 
+bool asks_analytic_wheel(const Case& question) {
+  return question.scenario.soil.semi_empirical && question.study.models.front().model == ModelKind::bekker_wong;
+}
+
 }  // namespace
 
 std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vector<WheelLimits>& answers) {
@@ -240,7 +244,7 @@ std::vector<ModelAnswers> answers_below_no_slip(const Case& question, const std:
 }
 
 std::optional<double> carried_load(const Case& question) {
-  if (!question.scenario.soil.semi_empirical) return std::nullopt;
+  if (!asks_analytic_wheel(question)) return std::nullopt;
   const OperatingCondition& at = question.study.conditions.front();
   try {
     return bekker_wong::largest_load(wheel_of(question.scenario, question.study.models.front()), at, at.load);
@@ -250,7 +254,7 @@ std::optional<double> carried_load(const Case& question) {
 }
 
 std::optional<double> steepest_slope(const Case& question) {
-  if (!question.scenario.soil.semi_empirical) return std::nullopt;
+  if (!asks_analytic_wheel(question)) return std::nullopt;
   OperatingCondition at = question.study.conditions.front();
   at.longitudinal_incline = 0.0;
   try {

@@ -75,11 +75,13 @@ std::optional<Estimate> slip_for_pull(const Scenario& scenario, OperatingConditi
 std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vector<WheelLimits>& answers);
 
 /// The largest load [N], up to the one that is asked for, that the soil carries at the question's first condition under
-/// the wheel of its first model; nothing where it carries none, or is known by its grains alone.
+/// the wheel of its first model; nothing where it carries none, is known by its grains alone, or is asked of another
+/// model than bekker_wong.
 std::optional<double> carried_load(const Case& question);
 
 /// The steepest slope [rad] that the wheel of the question's first model climbs under its first condition, at whatever
-/// slip; nothing where there is none or the soil is known by its grains alone.
+/// slip; nothing where there is none, the soil is known by its grains alone, or another model than bekker_wong is
+/// asked.
 std::optional<double> steepest_slope(const Case& question);
 
 /// The wheel where it climbs slopes with its rim slower than its travel: what there may be doubts about.

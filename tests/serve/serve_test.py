@@ -151,6 +151,29 @@ class TheServer(unittest.TestCase):
         self.assertEqual(len(served["budget"]["plots"]), 2)
         self.refused(400, "none of the library's tires", beside_tire="rover-wheal")
 
+    def test_another_quick_model_answers_as_by_the_command(self):
+        for asked in ({"model": "rft"}, {"soil": "sandy-loam", "model": "rft", "no-lugs": "true"}):
+            _, served = self.server.estimate(slip="30%", **asked)
+            self.assertEqual([row["model"] for row in served["rows"]], ["rft"])
+            told = json.loads(soilbin(*shlex.split(served["command"])[1:], "--json").stdout)
+            self.assertEqual(served["rows"], told["rows"])
+            self.assertNotIn("Steepest slope", [r["name"] for r in served["readings"]])
+        self.refused(400, "--effect means nothing to --model rft", model="rft", effect="slip_sinkage")
+
+    def test_a_second_model_stands_beside_the_first(self):
+        _, alone = self.server.estimate(slip="30%")
+        _, other = self.server.estimate(slip="30%", model="rft")
+        _, served = self.server.estimate(slip="30%", effect="none", beside_model="rft")
+        self.assertEqual(served["beside"]["readings"], other["readings"])
+        for both in served["curves"]["plots"]:
+            self.assertEqual([s["label"] for s in both["series"]],
+                             ["analytic wheel", "analytic wheel, this point", "resistive force theory",
+                              "resistive force theory, this point"][:len(both["series"])])
+        start = json.loads(self.server.ask("/case")[2])
+        self.assertEqual(([m["name"] for m in start["models"]], start["model"]),
+                         (["bekker_wong", "rft", "cone_index"], "bekker_wong"))
+        self.assertEqual(alone["rows"][0]["model"], "bekker_wong")
+
     def test_the_parts_pile_up_to_the_drawbar_pull(self):
         for flags in ({}, {"effect": ["bulldozing", "slip_sinkage"], "longitudinal_incline": "8deg"}):
             _, served = self.server.estimate(**flags)

@@ -68,15 +68,18 @@ soilbin.Live = class {
     const preset = (title, key, own, names) => list(title, [['', `${own} (start)`]].concat(names.map(n => [n, n])), key, '', () => {
       for (const {key: number, group: of} of this.start.numbers) if (of === key) this.state.delete(number);
     });
+    const models = this.start.models.map(({name, title}) => [name, title]);
     const beside = (title, key, names) => list(title, [['', 'none']].concat(names.map(n => [n, n])), key, '');
     const numbers = of => this.start.numbers.filter(n => n.group === of).map(n => this.addNumber(n));
     form.addEventListener('submit', event => event.preventDefault());
     form.replaceChildren(
+      list('Model', models, 'model', this.start.model, () => { this.state.delete('effect'); }),
       group('Condition', true, ...numbers('condition')),
       group('Wheel', wide, preset('Tire', 'tire', this.start.tire_name, this.start.tires), ...numbers('tire')),
       group('Soil', wide, preset('Soil', 'soil', this.start.soil, this.start.soils), ...numbers('soil')),
       group('Beside it', wide, beside('A second soil', 'beside-soil', this.start.soils),
-            beside('A second tire', 'beside-tire', this.start.tires)),
+            beside('A second tire', 'beside-tire', this.start.tires),
+            list('A second model', [['', 'none'], ...models], 'beside-model', '')),
       this.effects = make('details', {open: false}, make('summary'), ...this.start.effects.map(effect => this.addEffect(effect))),
       group('Curves', wide, list('Slip from', soilbin.slipRanges, 'slips', soilbin.slipRanges[0][0])));
     this.showEffects();
@@ -168,6 +171,7 @@ soilbin.Live = class {
   }
   wordOf(effect) { return this.effectWords().find(word => word.split(/[:,]/)[0] === effect.id); }
   showEffects() {
+    this.effects.hidden = (this.state.get('model') || this.start.model) !== 'bekker_wong';
     for (const effect of this.start.effects) effect.show(this.wordOf(effect));
     for (const {key, effects} of this.start.numbers)
       if (effects) this.numbers.get(key).element.hidden = !effects.some(id => this.wordOf({id}));
@@ -294,11 +298,12 @@ soilbin.Live = class {
   showReadings(readings, beside) {
     const {make, part} = soilbin, text = ({value, unit}) => unit ? `${value} ${unit}` : 'none';
     const tiles = readings.findIndex(reading => reading.name === 'Contact');
-    const tile = (reading, i) => {
+    const second = ({name}) => beside && beside.readings.find(reading => reading.name === name);
+    const tile = reading => {
       const one = make('div', {}, make('b', {textContent: text(reading)}), make('span', {textContent: reading.name}));
       one.dataset.said = `${reading.name} ${reading.value} ${reading.unit}`;
       if (!reading.unit) one.title = reading.value;
-      if (beside && beside.readings[i]) one.append(make('small', {textContent: `${beside.label}: ${text(beside.readings[i])}`}));
+      if (second(reading)) one.append(make('small', {textContent: `${beside.label}: ${text(second(reading))}`}));
       return one;
     };
     part('now').replaceChildren(...readings.slice(0, tiles).map(tile));
