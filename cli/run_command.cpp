@@ -74,7 +74,9 @@ void check_flags_of_converge(const RunOptions& options) {
 /// Throws InputError for a flag that means nothing beside the others.
 void check_flags(const RunOptions& options, const CLI::App& command, const Case& question) {
   const SoilBinFlags& bin = options.soil_bin;
-  check_flags_of_grains(bin, command, question, {.asked = asks(question.study, ModelKind::dem)});
+  GrainsAsked grains{.asked = asks(question.study, ModelKind::dem)};
+  if (asks(question.study, ModelKind::rft)) grains.read_without_them = {wheel_mesh_flag};
+  check_flags_of_grains(bin, command, question, grains);
   if (!bin.shard.empty() && !options.dry_run && bin.record.empty())
     throw InputError("--shard needs a record of its own for what it makes\n  hint: --record FILE.json");
 }
@@ -190,6 +192,7 @@ int answer(const RunOptions& options, const Case& question, const Case& whole,
     compare::StudyGrains grains;
     compare::Watch watch;
     grains.keeping = keeping_of(bin);
+    grains.settings.rig.meshing.drawn = bin.text(wheel_mesh_flag);  // read by resistive force theory too
     if (asks_grains) grains = grains_of(bin);
     if (asks_grains && (!bin.record.empty() || bin.coarser_twin))
       grains.list = bin.runs(question), watch = shown_runs(grains.settings);

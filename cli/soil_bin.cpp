@@ -110,8 +110,6 @@ constexpr SettingFlag until_error_flag{
     rig<&R::until_error>,
     {.lower = 1e-4, .upper = 0.5}};
 
-constexpr const char* wheel_mesh_flag = "--wheel-mesh";
-
 void add_patch_flag(CLI::App& command, bool& patch, const char* meaning) {
   command.add_flag("--patch", patch, meaning)->group(grains_heading);
 }
@@ -212,7 +210,7 @@ void SoilBinFlags::add_rig_to(CLI::App& command) {
   add_measures_to(command);
   add_value(command, wheel_mesh_flag, texts[wheel_mesh_flag], "FILE.stl|obj",
             "the wheel as drawn, a mesh as large as the tire, in place of the one that is made from the tire's "
-            "measures; soilbin mesh FILE shows what is in it")
+            "measures, of rft too; soilbin mesh FILE shows what is in it")
       ->group(grains_heading);
   add_seed_to(command);
 }

@@ -96,6 +96,9 @@ compare::Doubts bed_doubts(const SoilBinFlags& flags, const Case& question);
 /// meant, and bed_doubts. Beside the answer stands what coarse ones do to it.
 void tell_grain_doubts(const SoilBinFlags& flags, const Case& question);
 
+/// Read by resistive force theory too.
+inline constexpr const char* wheel_mesh_flag = "--wheel-mesh";
+
 /// Whether a command asks grains; how that is asked for; and the flags under grains_heading that it reads without them.
 struct GrainsAsked {
   bool asked = true;

@@ -88,6 +88,7 @@ ResistiveForceSoil resistive_force_of(const Soil& soil) {
 }
 
 std::shared_ptr<const TreadElements> ResistiveForce::elements_of(const Tire& tire) const {
+  if (drawn_) return drawn_;
   const std::lock_guard lock(mutex_);
   if (!elements_ || outline(last_) != outline(tire)) {
     elements_ = std::make_shared<const TreadElements>(tread_elements(tire));

@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "resistive_force/tread_elements.hpp"
 #include "resistive_force/wheel.hpp"
@@ -29,6 +30,10 @@ ResistiveForceSoil resistive_force_of(const Soil& soil);
 
 class ResistiveForce final : public Model {
  public:
+  /// Of the wheel as soilbin draws it.
+  ResistiveForce() = default;
+  /// Of a wheel as it was drawn (drawn_elements), whatever lugs the tire says.
+  explicit ResistiveForce(TreadElements drawn) : drawn_(std::make_shared<const TreadElements>(std::move(drawn))) {}
   std::string name() const override { return model_name; }
   /// Standard errors from those of xi_n and surface friction, to first order. Throws what
   /// resistive_force_of does, InputError for a tire whose lugs can't be drawn and an impossible condition, NoSolution
@@ -38,6 +43,7 @@ class ResistiveForce final : public Model {
  private:
   std::shared_ptr<const TreadElements> elements_of(const Tire& tire) const;
 
+  std::shared_ptr<const TreadElements> drawn_;
   // The last tire's elements: a study asks one tire hundreds of times.
   mutable std::mutex mutex_;
   mutable Tire last_;

@@ -1,8 +1,12 @@
 #include "resistive_force/tread_elements.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "dem/surface/drawn_wheel.hpp"
 #include "dem/surface/shapes.hpp"
 
 namespace soilbin::resistive_force {
@@ -24,16 +28,31 @@ WheelPart part_of(const Vec3& place, const Vec3& normal, const Tire& tire) {
 /// The tread base's normal: a triangle's own leans by its place in its flat, which a spinning wheel would push with.
 Vec3 radial(const Vec3& place) { return dem::unit({place.x, 0, place.z}); }
 
-std::vector<Element> elements_of(const dem::TriangleMesh& mesh, const Tire& tire) {
+/// Elements of a triangle, halved across its longest edge until that is at most `edge`.
+void add_elements(std::vector<Element>& all, std::array<Vec3, 3> corners, const Vec3& normal, const Tire& tire,
+                  double edge) {
+  const auto length_of = [&](int i) { return length(corners[(i + 1) % 3] - corners[i]); };
+  const int longest =
+      length_of(0) >= length_of(1) ? (length_of(0) >= length_of(2) ? 0 : 2) : (length_of(1) >= length_of(2) ? 1 : 2);
+  std::ranges::rotate(corners, corners.begin() + longest);
+  const auto& [a, b, c] = corners;
+  if (length(b - a) > edge) {
+    const Vec3 middle = 0.5 * (a + b);
+    add_elements(all, {a, middle, c}, normal, tire, edge);
+    add_elements(all, {middle, b, c}, normal, tire, edge);
+    return;
+  }
+  const Vec3 place = (a + b + c) / 3.0;
+  const WheelPart part = part_of(place, normal, tire);
+  const double area = 0.5 * length(cross(b - a, c - a));
+  all.push_back({place, part == WheelPart::tread ? radial(place) : normal, area, part});
+}
+
+std::vector<Element> elements_of(const dem::TriangleMesh& mesh, const Tire& tire, double edge = dem::any_edge) {
   std::vector<Element> all;
   all.reserve(static_cast<std::size_t>(mesh.size()));
-  for (int t = 0; t < mesh.size(); ++t) {
-    const Vec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
-    const Vec3 place = (a + b + c) / 3.0, normal = mesh.frame(t).normal;
-    const WheelPart part = part_of(place, normal, tire);
-    const double area = 0.5 * length(cross(b - a, c - a));
-    all.push_back({place, part == WheelPart::tread ? radial(place) : normal, area, part});
-  }
+  for (int t = 0; t < mesh.size(); ++t)
+    add_elements(all, {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, mesh.frame(t).normal, tire, edge);
   return all;
 }
 
@@ -57,17 +76,25 @@ bool has_alike_halves(const Tire& tire) {
   return !is_lugged(tire) || tire.lugs.pattern == LugPattern::straight || tire.lugs.pattern == LugPattern::chevron;
 }
 
-double pitch_of(const Tire& tire) {
-  if (!is_lugged(tire)) return 0.0;
-  return 2 * std::numbers::pi / tire.lugs.count.value_or(1);
-}
+constexpr double whole_turn = 2 * std::numbers::pi;
+/// Of a pitch, and of a whole turn of lugs that nobody has counted.
+constexpr int turns_of_a_pitch = 8, turns_of_the_whole = 96;
 
 }  // namespace
 
 TreadElements tread_elements(const Tire& tire, double finer) {
   const dem::TireMeshing meshing{.edge = finer * edge_per_radius * tire.radius};
   std::vector<Element> all = elements_of(dem::tire_surface(tire, meshing), tire);
-  return {has_alike_halves(tire) ? mirrored(all, tire) : all, pitch_of(tire)};
+  if (has_alike_halves(tire)) all = mirrored(all, tire);
+  if (!is_lugged(tire)) return {std::move(all)};
+  return {std::move(all), whole_turn / tire.lugs.count.value_or(1), turns_of_a_pitch};
+}
+
+TreadElements drawn_elements(const std::string& file, const Tire& tire) {
+  std::vector<Element> all = elements_of(dem::read_wheel(file, tire).mesh, tire, edge_per_radius * tire.radius);
+  if (tire.lugs.count.value_or(0) > 0)
+    return {std::move(all), whole_turn / tire.lugs.count.value_or(1), turns_of_a_pitch};
+  return {std::move(all), whole_turn, turns_of_the_whole};
 }
 
 }  // namespace soilbin::resistive_force

@@ -4,6 +4,7 @@
 //   elements.all.size(), elements.pitch  // 5,000 or so; [rad] after which the lugs look alike
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "dem/surface/vec3.hpp"
@@ -26,6 +27,7 @@ struct Element {
 struct TreadElements {
   std::vector<Element> all;
   double pitch = 0.0;  ///< the wheel looks alike after this turn [rad]; 0: smooth, after any
+  int turns = 1;       ///< of that pitch, over which forces are averaged
 };
 
 /// Edge of the elements where nobody asks for another: a share of the tread's radius, and of a lug's height, at least
@@ -36,5 +38,10 @@ inline constexpr double edge_per_radius = 0.05;
 /// edge_per_radius times `finer` of its radius. Throws InputError where a lugged tire's number or thickness of lugs
 /// is not known.
 TreadElements tread_elements(const Tire& tire, double finer = 1.0);
+
+/// The elements of the wheel in a file (dem/surface/drawn_wheel.hpp), its triangles halved until no edge is longer than
+/// edge_per_radius of the radius. Lugs that the tire counts are taken to be alike; without a count the whole turn is
+/// averaged. Throws InputError as dem::read_wheel.
+TreadElements drawn_elements(const std::string& file, const Tire& tire);
 
 }  // namespace soilbin::resistive_force

@@ -15,7 +15,6 @@ namespace soilbin::resistive_force {
 namespace {
 
 constexpr double deepest_share = 0.9;  // of the radius
-constexpr int turns_of_a_pitch = 8;    // over which a lugged wheel's forces are averaged
 constexpr int steps_down = 64;         // in which the first balance is looked for
 constexpr int precise_bits = 46;       // of the balanced depth
 constexpr double least_push = 1e-9;    // cosine of motion and normal; below it an element slides along itself
@@ -57,7 +56,7 @@ PushedWheel::PushedWheel(const TreadElements& elements, const Tire& tire, const 
   const Motion m = motion_of(at);
   axle_ = m.axle;
   gravity_share_ = std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
-  const int turns = elements.pitch > 0.0 ? turns_of_a_pitch : 1;
+  const int turns = elements.turns;
   turns_ = turns;
   contacts_.reserve(elements.all.size() * static_cast<std::size_t>(turns) / 2);
   for (int k = 0; k < turns; ++k) {

@@ -9,6 +9,7 @@
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/sweep/varying.hpp"
+#include "resistive_force/model.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -182,6 +183,9 @@ StudyResults answer_study(const Case& question, const Case& whole, const StudyGr
   StudyResults results;
   if (asks(question.study, ModelKind::dem) && !grains.recorded) refuse_endless_runs(grains, question);
   results.study = run_study(question, progress, [&](ModelKind kind) -> std::unique_ptr<const Model> {
+    if (const std::string& drawn = grains.settings.rig.meshing.drawn; kind == ModelKind::rft && !drawn.empty())
+      return std::make_unique<resistive_force::ResistiveForce>(
+          resistive_force::drawn_elements(drawn, question.scenario.tire));
     if (kind != ModelKind::dem) return make_model(kind);
     auto model = std::make_unique<Grains>(grains, whole, effects, results.runs);
     model->make_listed(whole.scenario, watch);

@@ -321,6 +321,8 @@ TEST(SlowIgnoredInput, FlagsOfGrainsAreRefusedWhereNoGrainsAreAsked) {
     }
     EXPECT_GE(refused, 15U) << command;
   }
+  const Outcome drawn = soilbin("run rover-slip --model rft --wheel-mesh no-such.stl");
+  EXPECT_THAT(drawn.err, HasSubstr("no-such.stl")) << "resistive force theory reads it";
   const Outcome several = soilbin("run rover-slip --packings=3 --graded=2");
   EXPECT_THAT(several.err, HasSubstr("--graded, --packings have no effect on the analytic model"));
 }

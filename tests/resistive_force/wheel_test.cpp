@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
+#include "dem/surface/mesh_files.hpp"
+#include "dem/surface/shapes.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 
@@ -143,6 +146,25 @@ TEST(PushedWheel, HardlyChangesWithFinerElements) {
     EXPECT_NEAR(used.forces.pull, fine.forces.pull, 0.003 * at.load);
     EXPECT_NEAR(used.forces.torque, fine.forces.torque, 0.003 * fine.forces.torque);
   }
+}
+
+// Of a drawing as coarse as its shape allows, whose triangles are halved here.
+TEST(PushedWheel, OfADrawingIsTheWheelThatWasDrawn) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "lugged.stl";
+  const OperatingCondition at{.load = 20e3, .slip = 0.2, .yaw = 0.1};
+  Tire tire = lugged();
+  dem::write_stl(file, dem::tire_surface(tire, {.edge = 0.2}), 1e-3);
+  const Balance made = balanced(tire, at);
+  const auto near = [&](const Balance& drawn) {
+    EXPECT_NEAR(drawn.sinkage, made.sinkage, 0.01 * made.sinkage);
+    expect_forces(drawn.forces, made.forces, 0.01 * at.load);
+  };
+  near(PushedWheel(drawn_elements(file.string(), tire), tire, at).balance(sand));
+  tire.lugs.count.reset();  // the drawing has them
+  near(PushedWheel(drawn_elements(file.string(), tire), tire, at).balance(sand));
+  tire.width *= 1.5;
+  EXPECT_THROW(drawn_elements(file.string(), tire), InputError);
+  std::filesystem::remove(file);
 }
 
 TEST(PushedWheel, HasStressesThatCarryIt) {
