@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "resistive_force/response.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/number_check.hpp"
 
@@ -34,6 +35,13 @@ double pressure_error(std::span<const PlateSet> plates, const BevameterFit& fit)
 }
 
 }  // namespace
+
+double xi_n_of(const bekker_wong::PlateCurve& curve) {
+  double moment = 0.0, square = 0.0;
+  for (std::size_t i = 0; i < curve.pressure.size(); ++i)
+    moment += curve.pressure[i] * curve.sinkage[i], square += curve.sinkage[i] * curve.sinkage[i];
+  return moment / square / resistive_force::plate_response();
+}
 
 ShearStrength strength_of(std::span<const ShearTop> tops) {
   double s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
@@ -80,14 +88,16 @@ JanosiFit fit_janosi(const ShearCurve& curve) {
 BevameterFit fit_bevameter(std::span<const PlateSet> plates, std::span<const ShearCurve> shear) {
   if (plates.empty() || shear.empty()) throw InputError("a bevameter needs plates and shear tests");
   BevameterFit fit;
-  std::vector<double> n, k_c, k_phi, modulus;
+  std::vector<double> n, k_c, k_phi, modulus, xi_n;
   std::vector<bekker_wong::PlateSums> sums;
   for (const PlateSet& set : plates) {
     n.push_back(bekker_wong::fit_plates(set, bekker_wong::PlateExponent::common).exponent);
-    for (const bekker_wong::PlateCurve& curve : set) sums.push_back(bekker_wong::sums_of(curve));
+    for (const bekker_wong::PlateCurve& curve : set)
+      sums.push_back(bekker_wong::sums_of(curve)), xi_n.push_back(xi_n_of(curve));
   }
   fit.soil.exponent = mean_of(n);
   fit.soil.reference_sinkage = bekker_wong::reference_sinkage(sums);
+  fit.xi_n = {mean_of(xi_n).value, spread_of(xi_n)};
   // k_c and k_phi mean something at one exponent only: all sets at the mean one.
   for (const PlateSet& set : plates) {
     const bekker_wong::PlateFit at = bekker_wong::fit_plates_at(set, fit.soil.exponent.value);
@@ -123,6 +133,11 @@ Soil with_bevameter(Soil soil, const BevameterFit& fit, double density, const st
   check_numbers(out);
   if (fit.cohesion_as_fitted < 0) out.sources["cohesion"] += "; fitted below 0, taken as 0";
   soil.semi_empirical = out;
+  if (!(fit.xi_n.value > 0.0)) throw InputError("the plates bear nothing that grows with their sinkage");
+  constexpr double friction_sd = 0.1;
+  soil.resistive_force = {.xi_n = fit.xi_n,
+                          .surface_friction = {std::tan(2.0 / 3.0 * out.friction_angle.value), friction_sd},
+                          .sources = {{"xi_n", source}, {"surface_friction", "chosen: two thirds of friction_angle"}}};
   soil.beds.clear(), soil.bed_density.reset();
   return soil;
 }

@@ -15,6 +15,10 @@ namespace soilbin::compare {
 /// One set of plates on one specimen of the soil: curves of two radii or more.
 using PlateSet = std::vector<bekker_wong::PlateCurve>;
 
+/// xi_n of resistive force theory [N/m^3] by one plate: the slope through the origin that its pressures have over
+/// sinkage, by least squares, over plate_response().
+double xi_n_of(const bekker_wong::PlateCurve& curve);
+
 /// A ring or plate sheared under one normal stress.
 struct ShearCurve {
   double normal_stress = 0;          ///< [Pa]
@@ -51,6 +55,7 @@ struct BevameterFit {
   double cohesion_as_fitted = 0;  ///< c before it was cut off at 0 [Pa]
   double pressure_error = 0;      ///< root mean square of Bekker's form against all plates' points, over their mean
   std::vector<JanosiFit> shear;   ///< of each curve
+  Estimate xi_n;  ///< mean over all plates [N/m^3], and their standard deviation: the theory's plates are all alike
 };
 
 /// n, k_c and k_phi: means over the sets, each fitted by fit_plates with a common exponent, with the standard errors of
@@ -59,9 +64,10 @@ struct BevameterFit {
 /// A cohesion below 0 is given as 0, since the model takes no other. Throws InputError.
 BevameterFit fit_bevameter(std::span<const PlateSet> plates, std::span<const ShearCurve> shear);
 
-/// The soil with these values as its semi-empirical part. What a bevameter does not tell (c1, c2) stays as it was, or
-/// is Azimi's choice for sand where there was nothing; `source` is noted at each number that comes from the fit. Throws
-/// InputError for a value that no soil's file may hold, such as a friction angle below 0.
+/// The soil with these values as its semi-empirical part and, for resistive force theory, xi_n with a surface friction
+/// of the tangent of two thirds of phi, +- 0.1. What a bevameter does not tell (c1, c2) stays as it was, or is Azimi's
+/// choice for sand where there was nothing; `source` is noted at each number that comes from the fit. Throws InputError
+/// for a value that no soil's file may hold, such as a friction angle below 0.
 Soil with_bevameter(Soil soil, const BevameterFit& fit, double density, const std::string& source);
 
 }  // namespace soilbin::compare

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "bekker_wong/gsl.hpp"
+#include "compare/bevameter/bevameter.hpp"
 #include "compare/measured/outliers.hpp"
 #include "compare/report/number_text.hpp"
 #include "resistive_force/response.hpp"
@@ -380,29 +381,21 @@ std::size_t MeasuredPlatesFit::readings_aside() const {
 
 namespace {
 
-/// The pressures of a test over its sinkages, as one slope [N/m^3].
-double slope_of(const PlateCurve& curve) {
-  double moment = 0.0, square = 0.0;
-  for (std::size_t i = 0; i < curve.pressure.size(); ++i)
-    moment += curve.pressure[i] * curve.sinkage[i], square += curve.sinkage[i] * curve.sinkage[i];
-  return moment / square;
-}
-
 /// Fills xi_n: its scatter is that between tests of all sizes, since the theory makes no difference between them.
 void add_xi_n(const std::vector<PlateCurve>& curves, MeasuredPlatesFit& fit) {
   const double n = static_cast<double>(curves.size()), response = resistive_force::plate_response();
   double lower = 0.0, upper = 0.0, missed = 0.0, pressure = 0.0;
   std::vector<double> of_tests;
   for (const PlateCurve& curve : curves) {
-    of_tests.push_back(slope_of(curve) / response);
+    of_tests.push_back(xi_n_of(curve));
     PlateCurve low{curve.radius, {}, {}}, high = low;
     const double half = *std::ranges::max_element(curve.pressure) / 2;
     for (std::size_t i = 0; i < curve.pressure.size(); ++i) {
       PlateCurve& to = curve.pressure[i] < half ? low : high;
       to.sinkage.push_back(curve.sinkage[i]), to.pressure.push_back(curve.pressure[i]);
     }
-    lower += slope_of(low.pressure.empty() ? curve : low) / response / n;
-    upper += slope_of(high) / response / n;
+    lower += xi_n_of(low.pressure.empty() ? curve : low) / n;
+    upper += xi_n_of(high) / n;
   }
   const double mean = mean_of(of_tests).value;
   for (const PlateCurve& curve : curves)

@@ -604,6 +604,7 @@ Json bevameter_json(const Soil& soil, const BevameterFit& fit, double density) {
   document["cohesion_as_fitted"] = fit.cohesion_as_fitted;
   document["pressure_error"] = fit.pressure_error;
   document["density"] = density;
+  document["xi_n"] = estimate_json(fit.xi_n);
   return document;
 }
 
@@ -612,6 +613,8 @@ Table values_table(const BevameterFit& fit, const Soil& soil) {
   for (const SoilParameter& p : bevameter_parameters)
     table.add({heading(p.symbol, p.unit), number(fit.soil.*p.value, p.per_si),
                soil.semi_empirical ? number((*soil.semi_empirical).*p.value, p.per_si) : "-"});
+  table.add({heading("xi_n", "kN/m^3"), number(fit.xi_n, 1e-3),
+             soil.resistive_force ? number(soil.resistive_force->xi_n, 1e-3) : "-"});
   return table;
 }
 

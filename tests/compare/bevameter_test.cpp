@@ -64,6 +64,21 @@ TEST(Bevameter, ScatterOfSetsIsTheErrorOfTheMean) {
   EXPECT_NEAR(fit.soil.exponent.std_error, 0, 1e-9);
 }
 
+// Plates whose pressure grows with depth alone, whatever their size, are those of resistive force theory.
+TEST(Bevameter, GivesXiNOfPlatesThatKnowNoSize) {
+  const double xi_n = 1.2e6, slope = 0.875 * xi_n;  // of a level plate: f3(0, -1, 1)
+  PlateSet set;
+  for (const double b : {0.05, 0.1}) {
+    bekker_wong::PlateCurve curve{b, {}, {}};
+    for (int k = 1; k <= 20; ++k) curve.sinkage.push_back(0.002 * k), curve.pressure.push_back(slope * 0.002 * k);
+    set.push_back(curve);
+  }
+  const BevameterFit fit = fit_bevameter(std::vector{set, set}, three_stresses);
+  EXPECT_NEAR(fit.xi_n.value / xi_n, 1, 2e-3);  // 0.875 is rounded
+  EXPECT_NEAR(fit.xi_n.std_error, 0, 1e-6 * xi_n);
+  EXPECT_NEAR(fit.soil.exponent.value, 1, 1e-9);
+}
+
 TEST(Bevameter, WritesASoilThatReadsBack) {
   const std::vector<PlateSet> sets{plates()};
   Soil soil;
@@ -74,6 +89,9 @@ TEST(Bevameter, WritesASoilThatReadsBack) {
   EXPECT_EQ(again.semi_empirical->k_phi.value, out.semi_empirical->k_phi.value);
   EXPECT_EQ(again.semi_empirical->sources.at("k_phi"), "virtual bevameter");
   EXPECT_EQ(again.semi_empirical->stress_angle_c1.value, 0.18);
+  ASSERT_TRUE(again.resistive_force);
+  EXPECT_EQ(again.resistive_force->xi_n.value, out.resistive_force->xi_n.value);
+  EXPECT_EQ(again.resistive_force->sources.at("xi_n"), "virtual bevameter");
 }
 
 /// Plates and rings of any soil, as their readings scatter by a share.
