@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <ranges>
 #include <string_view>
 #include <utility>
 
@@ -125,9 +126,10 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 }
 
 std::string listed(const std::vector<std::string>& words) {
+  constexpr std::size_t most = 100;
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + clipped(word);
-  return text;
+  for (const std::string& word : words | std::views::take(most)) text += (text.empty() ? "" : ", ") + clipped(word);
+  return words.size() > most ? text + " and " + std::to_string(words.size() - most) + " more" : text;
 }
 
 std::string none_of(const std::string& word, const std::vector<std::string>& right) {

@@ -17,7 +17,7 @@ std::vector<std::string> meant_words(const std::string& word, const std::vector<
 /// before a misspelling: ", did you mean 'lug_height'?" for "grouser_height".
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& right);
 
-/// "radius, width, lugs"; a word that is longer than any of ours is clipped.
+/// "radius, width, lugs"; a word that is longer than any of ours is clipped, and more than 100 are counted.
 std::string listed(const std::vector<std::string>& words);
 
 /// "'rdius' is none of radius, width, did you mean 'radius'?"
