@@ -127,7 +127,7 @@ void check_flags(const CalibrateOptions& asked, const CLI::App& command, Contact
     refuse({"--test", "--strength", "--stresses"}, hint);
     if (!asked.decision.given()) refuse({"--settling-friction"}, hint);
   }
-  if (!asked.contact_test.curves.empty()) {
+  if (asked.contact_test.measured.given()) {
     if (kind == ContactKind::grain_tire || asked.contact_test.strength_test != "triaxial")
       throw InputError(
           "--curves: the tests are triaxial ones, of sand on sand\n  hint: leave out --contact and --test");

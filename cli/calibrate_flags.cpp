@@ -72,9 +72,10 @@ std::vector<Target> targets_of(const ContactTestFlags& asked, const std::vector<
   return targets;
 }
 
-std::vector<Factor> factors_of(const ContactTestFlags& asked, ContactKind kind) {
+std::vector<Factor> factors_of(const ContactTestFlags& asked, ContactKind kind,
+                               const std::vector<compare::CompressionCurve>& curves) {
   std::vector<Factor> factors =
-      asked.curves.empty() ? compare::usual_factors(kind) : compare::usual_factors_of_curves();
+      curves.empty() ? compare::usual_factors(kind) : compare::usual_factors_of_curves(curves);
   std::vector<std::string> names;
   for (const Factor& factor : factors) names.push_back(factor.name);
   for (const std::string& text : asked.bounds) {
@@ -110,15 +111,14 @@ Soil ContactTestFlags::soil_with_grains(const Workplace& place) const {
 
 compare::VirtualTest ContactTestFlags::test(const Soil& of, std::function<void(const dem::Progress&)> progress) const {
   compare::ContactQuestion question;
-  question.kind = kind(), question.factors = factors_of(*this, question.kind);
-  if (curves.empty()) {
+  question.kind = kind();
+  if (!measured.given()) {
     question.targets = targets_of(*this, question.kind, of);
   } else {
-    std::vector<std::string> names = split(tests, ",");
-    std::erase(names, "");
-    question.curves = compare::read_compression(read_source_text(curves, largest_csv), names);
+    question.curves = measured.read();
     question.targets = targets_of(*this, question.curves);
   }
+  question.factors = factors_of(*this, question.kind, question.curves);
   question.packings = packings, question.across = across;
   question.settling_friction = read_settling_friction(settling_friction, question.settling_friction);
   question.stresses.clear();
@@ -143,9 +143,7 @@ void ContactTestFlags::add_to(CLI::App& command) {
             "sand on sand: by which test; take the one that measured the target");
   add_value(command, "--target", targets, "NAME=VALUE[,SD]",
             "what was measured; repeatable; for sand, by default, the soil's own");
-  add_value(command, "--curves", curves, "FILE.csv",
-            "measured drained triaxial tests: strength, stiffness and volume change are the targets");
-  add_value(command, "--tests", tests, "NAME,NAME,...", "--curves: only these tests of the file")->needs("--curves");
+  measured.add_to(command, "measured drained triaxial tests: strength, stiffness and volume change are the targets");
   add_value(command, "--features", features, "NAME,NAME,...",
             "--curves: only these of peak_angle, end_angle, half_strain, volume, void_ratio")
       ->needs("--curves");

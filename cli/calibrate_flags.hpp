@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/element_test_flags.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/workplace.hpp"
 #include "compare/experiments/element_experiments.hpp"
@@ -20,7 +21,8 @@ struct ContactTestFlags {
   std::string soil, contact = "sand", strength_test = "triaxial", strength = "peak", settling_friction = "1",
                     stresses = "10kPa,20kPa,40kPa";
   std::string rolling;
-  std::string curves, tests, features;
+  CompressionFlags measured;
+  std::string features;
   std::vector<std::string> targets, bounds, kept;
   int packings = 0, threads = 0, across = 16;
 

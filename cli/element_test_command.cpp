@@ -31,6 +31,8 @@ struct ElementTestOptions {
   bool ledger = false;
   ElementTestFlags flags;
   PlateFlags plates;
+  ConeFlags cone;
+  CompressionFlags measured;
 };
 
 struct AskedTest {
@@ -69,8 +71,12 @@ compare::Report direct_shear(const AskedTest& asked) {
 
 compare::Report triaxial(const AskedTest& asked) {
   using S = dem::TriaxialSettings;
-  const S settings = strength_settings<S>(asked, {&S::side, &S::height});
-  return compare::report_on(dem::triaxial(asked.grains, settings, asked.how, &asked.beds), asked.soil);
+  S settings = strength_settings<S>(asked, {&S::side, &S::height});
+  std::vector<compare::CompressionCurve> measured;
+  if (asked.options.measured.given()) measured = asked.options.measured.read();
+  if (!measured.empty()) settings = compare::pressed_as(measured, settings);
+  const dem::TriaxialResult result = dem::triaxial(asked.grains, settings, asked.how, &asked.beds);
+  return compare::report_on(result, asked.soil, compare::beside_measured(std::move(measured), result.runs));
 }
 
 template <class Result>
@@ -112,6 +118,16 @@ compare::Report plate(const AskedTest& asked) {
   return compare::report_on(each_packing<dem::PlateRun>(asked, run), asked.soil);
 }
 
+compare::Report cone(const AskedTest& asked) {
+  dem::ConeSettings s = asked.options.cone.cone(asked.grains);
+  s.bed.width *= asked.options.flags.size, s.bed.depth *= asked.options.flags.size;
+  const auto run = [&](const dem::SpecimenSettings& specimen) {
+    s.bed.specimen = specimen;
+    return std::vector{dem::cone_penetration(asked.grains, s, asked.how, &asked.beds)};
+  };
+  return compare::report_on(each_packing<dem::ConeRun>(asked, run), asked.soil, mean_diameter(asked.grains));
+}
+
 compare::Report shear(const AskedTest& asked) {
   dem::AnnulusSettings s;
   s.stresses = stresses_of(asked.options, s.stresses);
@@ -127,14 +143,16 @@ struct Test {
   const char* name;
   compare::Report (*run)(const AskedTest&);
   bool takes_specimens = false, takes_stresses = takes_specimens, takes_plates = false;
-  bool takes_settling = takes_stresses || takes_plates;
+  bool takes_cone = false, takes_curves = false;
+  bool takes_settling = takes_stresses || takes_plates || takes_cone;
   int packings = 1;  ///< where none are asked for: of quick tests enough to tell what they scatter
 };
 constexpr Test tests[] = {{.name = "direct-shear", .run = direct_shear, .takes_specimens = true},
                           {.name = "tilting-board", .run = tilting_board, .packings = 3},
                           {.name = "repose", .run = repose, .packings = 3},
-                          {.name = "triaxial", .run = triaxial, .takes_specimens = true},
+                          {.name = "triaxial", .run = triaxial, .takes_specimens = true, .takes_curves = true},
                           {.name = "plate", .run = plate, .takes_plates = true},
+                          {.name = "cone", .run = cone, .takes_cone = true},
                           {.name = "shear", .run = shear, .takes_stresses = true}};
 
 const Test& test_of(const std::string& name) {
@@ -158,11 +176,16 @@ void check_flags(const ElementTestOptions& options, const Test& asked) {
                                  names.size() > 1 ? "do" : "does"));
   };
   only("--stress", !options.stresses.empty(), &Test::takes_stresses);
+  only("--curves", options.measured.given(), &Test::takes_curves);
+  if (options.measured.given() && !options.stresses.empty())
+    throw InputError("--stress has no effect beside --curves, whose tests tell it\n  hint: leave out one of the two");
   only("--inertial", options.inertial != 0, &Test::takes_specimens);
   only("--ledger", options.ledger, &Test::takes_specimens);
   only("--settling-friction", !options.flags.settling_friction.empty(), &Test::takes_settling);
   only("--plate", !options.plates.diameters.empty(), &Test::takes_plates);
   only("--plate-sinkage", !options.plates.sinkage.empty(), &Test::takes_plates);
+  only("--cone", !options.cone.diameter.empty(), &Test::takes_cone);
+  only("--cone-depth", !options.cone.depth.empty(), &Test::takes_cone);
 }
 
 int element_test(const ElementTestOptions& options, const Session& session) {
@@ -184,7 +207,8 @@ void add_element_test(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand(
       "element-test", "test a soil's grains as a laboratory does: shear box, triaxial cell, plates ...");
   const auto options = std::make_shared<ElementTestOptions>();
-  add_value(*command, "test", options->test, "TEST", "direct-shear, tilting-board, repose, triaxial, plate or shear")
+  add_value(*command, "test", options->test, "TEST",
+            "direct-shear, tilting-board, repose, triaxial, plate, cone or shear")
       ->required();
   add_value(*command, "soil", options->soil, "SOIL", "a soil of the library, or a YAML file")->required();
   add_value(*command, "--stress", options->stresses, "STRESS", "normal or confining stress; may be given again")
@@ -198,6 +222,10 @@ void add_element_test(CLI::App& app, Session& session) {
   options->outputs.add_to(*command, {.json = "soilbin-element-test/1, in SI", .plot = "draw the curves"});
   options->flags.add_to(*command);
   options->plates.add_to(*command);
+  options->cone.add_to(*command);
+  options->measured.add_to(*command,
+                           "triaxial: measured drained tests, at whose pressures the cell presses; told beside "
+                           "them");
   command->footer("Example: soilbin element-test direct-shear paper-sand --stress 10kPa --stress 40kPa --plot box.svg");
   command->callback([=, &session] { session.action = [=, &session] { return element_test(*options, session); }; });
 }

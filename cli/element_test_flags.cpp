@@ -55,6 +55,17 @@ compare::Doubts ElementTestFlags::doubts(GranularSoil soil) const {
   return compare::grain_value_doubts(soil);
 }
 
+void CompressionFlags::add_to(CLI::App& command, const char* meaning) {
+  add_value(command, "--curves", file, "FILE.csv", meaning);
+  add_value(command, "--tests", tests, "NAME,NAME,...", "--curves: only these tests of the file")->needs("--curves");
+}
+
+std::vector<compare::CompressionCurve> CompressionFlags::read() const {
+  std::vector<std::string> names = split(tests, ",");
+  std::erase(names, "");
+  return compare::read_compression(read_source_text(file, largest_csv), names);
+}
+
 void PlateFlags::add_to(CLI::App& command) {
   add_value(command, "--plate", diameters, "DIAMETER",
             "plates: the diameter of one, or several, 60mm,100mm; 5, 7 and 9 mean diameters of the grains")
@@ -77,6 +88,26 @@ dem::PlateSettings PlateFlags::plates(const GranularSoil& soil) const {
                         text, dem::narrowest_tool, compare::number(1e3 * grain)));
     }
   if (!sinkage.empty()) out.sinkage = read_flag("--plate-sinkage", sinkage, length) / grain;
+  return out;
+}
+
+void ConeFlags::add_to(CLI::App& command) {
+  add_value(command, "--cone", diameter, "DIAMETER", "cone: of its base; 6 mean diameters of the grains");
+  add_value(command, "--cone-depth", depth, "DEPTH", "cone: how deep its base is pressed; 3 of its diameters");
+}
+
+dem::ConeSettings ConeFlags::cone(const GranularSoil& soil) const {
+  const Measure length{"mm", above_zero};
+  const double grain = mean_diameter(soil);
+  dem::ConeSettings out;
+  if (!diameter.empty()) out.diameter = read_flag("--cone", diameter, length) / grain;
+  if (out.diameter < dem::narrowest_tool)
+    throw InputError(
+        fmt::format("--cone {} is narrower than {:.3g} grains, of {} mm on average: single grains would carry it",
+                    diameter, dem::narrowest_tool, compare::number(1e3 * grain)));
+  const double usual = out.depth;
+  if (!depth.empty()) out.depth = read_flag("--cone-depth", depth, length) / (out.diameter * grain);
+  out.bed.depth += out.depth - usual;
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compare/doubts/doubt.hpp"
+#include "compare/experiments/compression_curves.hpp"
 #include "dem/element_tests/bevameter_tests.hpp"
 #include "scenario/soil.hpp"
 
@@ -28,6 +29,16 @@ struct ElementTestFlags {
   compare::Doubts doubts(GranularSoil soil) const;
 };
 
+/// Measured triaxial tests, --curves and --tests.
+struct CompressionFlags {
+  std::string file, tests;
+
+  void add_to(CLI::App& command, const char* meaning);
+  bool given() const { return !file.empty(); }
+  /// Throws InputError with file, line and hint.
+  std::vector<compare::CompressionCurve> read() const;
+};
+
 /// Plates of the size that a field test has, --plate and --plate-sinkage; without them they are sized in grains.
 struct PlateFlags {
   std::vector<std::string> diameters;
@@ -36,6 +47,15 @@ struct PlateFlags {
   void add_to(CLI::App& command);
   /// Throws InputError that names the flag.
   dem::PlateSettings plates(const GranularSoil& soil) const;
+};
+
+/// The cone of element-test cone, --cone and --cone-depth; without them it is sized in grains.
+struct ConeFlags {
+  std::string diameter, depth;
+
+  void add_to(CLI::App& command);
+  /// In a bed that is deep enough. Throws InputError that names the flag.
+  dem::ConeSettings cone(const GranularSoil& soil) const;
 };
 
 }  // namespace soilbin::cli

@@ -25,7 +25,7 @@ void put_values(GranularSoil& soil, ContactKind kind, const std::vector<Factor>&
                 const Eigen::VectorXd& values) {
   for (std::size_t j = 0; j < factors.size(); ++j) {
     const std::string& name = factors[j].name;
-    if (name == settling_friction_factor) continue;
+    if (name.starts_with(settling_friction_factor)) continue;
     (name == "youngs_modulus" ? soil.youngs_modulus : value_of(pair_of(soil, kind), name)) = values[j];
   }
 }

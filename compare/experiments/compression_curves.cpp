@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 
@@ -241,6 +242,55 @@ std::vector<Target> targets_of(std::span<const CompressionCurve> tests, const st
       targets.push_back({target_name(feature, test), {*value, error}, of.unit, met_within * error});
     }
   return targets;
+}
+
+std::vector<std::vector<CompressionCurve>> by_density(std::span<const CompressionCurve> tests) {
+  constexpr double alike = 0.03;  // in void ratio
+  const auto looseness = [](const CompressionCurve& test) { return test.void_ratio.value_or(HUGE_VAL); };
+  std::vector<double> sorted;
+  for (const CompressionCurve& test : tests) sorted.push_back(looseness(test));
+  std::ranges::sort(sorted, std::greater{});
+  std::vector<double> densest;  // of each density
+  for (const double void_ratio : sorted) {
+    if (densest.empty() || (std::isfinite(densest.back()) && densest.back() - void_ratio >= alike))
+      densest.push_back(void_ratio);
+    densest.back() = void_ratio;
+  }
+  std::vector<std::vector<CompressionCurve>> densities(densest.size());
+  for (const CompressionCurve& test : tests) {
+    const auto of = std::ranges::find_if(densest, [&](double end) { return looseness(test) >= end; });
+    densities[of - densest.begin()].push_back(test);
+  }
+  return densities;
+}
+
+dem::TriaxialSettings pressed_as(std::span<const CompressionCurve> tests, dem::TriaxialSettings settings) {
+  settings.samples = 1000;
+  settings.stresses.clear(), settings.strain = 0;
+  for (const CompressionCurve& test : tests) {
+    settings.strain = std::max(settings.strain, test.strain.back());
+    if (std::ranges::find(settings.stresses, test.confining) == settings.stresses.end())
+      settings.stresses.push_back(test.confining);
+  }
+  return settings;
+}
+
+Estimate simulated(CurveFeature feature, const CompressionCurve& test, const std::vector<dem::TriaxialRun>& runs) {
+  std::vector<double> values;
+  for (const dem::TriaxialRun& run : runs)
+    if (run.stress == test.confining) values.push_back(*feature_of(curve_of(run), feature, test.strain.back()));
+  return values.size() > 1 ? mean_of(values) : Estimate{values.front(), 0.0};
+}
+
+MeasuredBeside beside_measured(std::vector<CompressionCurve> tests, const std::vector<dem::TriaxialRun>& runs) {
+  MeasuredBeside beside{std::move(tests), {}};
+  for (const CompressionCurve& test : beside.tests)
+    for (int k = 0; k < curve_features; ++k) {
+      const auto feature = static_cast<CurveFeature>(k);
+      for (const Target& target : targets_of(std::span(&test, 1), {feature}))
+        beside.features.push_back({target, simulated(feature, test, runs)});
+    }
+  return beside;
 }
 
 }  // namespace soilbin::compare

@@ -145,19 +145,10 @@ VirtualTest strength_test(const char* name, const ElementExperiment& experiment,
   return test;
 }
 
-/// A target of curves, "peak_angle.TX15", in simulated runs: the mean over packings and its error.
-Estimate simulated(const std::string& target, const std::vector<CompressionCurve>& measured,
-                   const std::vector<dem::TriaxialRun>& runs) {
-  for (const CompressionCurve& curve : measured)
-    for (int k = 0; k < curve_features; ++k) {
-      const auto feature = static_cast<CurveFeature>(k);
-      if (target_name(feature, curve) != target) continue;
-      std::vector<double> values;
-      for (const dem::TriaxialRun& run : runs)
-        if (run.stress == curve.confining) values.push_back(*feature_of(curve_of(run), feature, curve.strain.back()));
-      return values.size() > 1 ? mean_of(values) : Estimate{values.front(), 0.0};
-    }
-  throw InputError("target '" + target + "' is no feature of the measured curves");
+/// "settling_friction" where all tests are of one density; else with the first test of these.
+std::string settling_factor_of(const std::vector<CompressionCurve>& all, const std::vector<CompressionCurve>& alike) {
+  const std::string name = settling_friction_factor;
+  return alike.size() == all.size() ? name : name + "." + alike.front().test;
 }
 
 template <class Settings>
@@ -198,35 +189,58 @@ VirtualTest tilting_board_test(const ElementExperiment& experiment, const dem::T
   return test;
 }
 
-/// Sand on sand: the cell at the pressures of measured tests, as far as they go. A target is a feature of one of them.
-VirtualTest curve_test(const ElementExperiment& experiment, const ContactQuestion& question) {
-  dem::TriaxialSettings settings = specimen_settings<dem::TriaxialSettings>(experiment.soil, question);
-  settings.samples = 1000;
-  settings.stresses.clear(), settings.strain = 0;
-  for (const CompressionCurve& curve : question.curves) {
-    settings.strain = std::max(settings.strain, curve.strain.back());
-    if (std::ranges::find(settings.stresses, curve.confining) == settings.stresses.end())
-      settings.stresses.push_back(curve.confining);
+/// Measured specimens of one density, and how grains are pressed as they were.
+struct AlikeSpecimens {
+  std::vector<CompressionCurve> tests;
+  dem::TriaxialSettings settings;
+  std::string settling;  ///< name of the factor by which they settle
+};
+
+/// Each target that is a feature of these specimens.
+void add_answers(std::vector<Estimate>& answers, const std::vector<Target>& targets, const AlikeSpecimens& specimens,
+                 const std::vector<dem::TriaxialRun>& runs) {
+  for (const CompressionCurve& test : specimens.tests)
+    for (int k = 0; k < curve_features; ++k) {
+      const auto feature = static_cast<CurveFeature>(k);
+      const auto target = std::ranges::find(targets, target_name(feature, test), &Target::name);
+      if (target != targets.end()) answers[target - targets.begin()] = simulated(feature, test, runs);
+    }
+}
+
+/// What follows from the measured tests alone. Those of one density are told in their file's order.
+void add_tests(Identity& identity, const std::vector<AlikeSpecimens>& densities) {
+  for (const AlikeSpecimens& specimens : densities) {
+    if (densities.size() > 1) identity.add(specimens.settling.c_str(), "settled apart");
+    for (const CompressionCurve& test : specimens.tests)
+      identity.add(test.test.c_str(), test.confining).add("until", test.strain.back());
   }
-  Identity identity = identity_of("triaxial curves", experiment, settings, Strength::peak);
-  add_sides(identity, settings);
-  identity.add("samples", settings.samples);
-  for (const CompressionCurve& curve : question.curves)
-    identity.add(curve.test.c_str(), curve.confining).add("until", curve.strain.back());
+}
+
+/// Sand on sand: the cell at the pressures of measured tests, as far as they go, the specimens of each density settled
+/// apart. A target is a feature of one of the tests.
+VirtualTest curve_test(const ElementExperiment& experiment, const ContactQuestion& question) {
+  const auto usual = specimen_settings<dem::TriaxialSettings>(experiment.soil, question);
+  std::vector<AlikeSpecimens> densities;
+  for (const auto& tests : by_density(question.curves))
+    densities.push_back({tests, pressed_as(tests, usual), settling_factor_of(question.curves, tests)});
+  Identity identity = identity_of("triaxial curves", experiment, pressed_as(question.curves, usual), Strength::peak);
+  add_sides(identity, pressed_as(question.curves, usual));
+  identity.add("samples", densities.front().settings.samples);
+  add_tests(identity, densities);
   VirtualTest test = test_of(experiment, identity.text());
-  const std::vector<CompressionCurve> measured = question.curves;
   test.run = [=](const VectorXd& values, std::uint64_t seed) {
     return answered([&] {
-      dem::TriaxialSettings own = settings;
-      own.specimen.packing = first_packing(seed, settings.packings);
-      for (std::size_t j = 0; j < experiment.factors.size(); ++j)
-        if (experiment.factors[j].name == settling_friction_factor)
-          own.specimen.settling_friction = values[static_cast<Eigen::Index>(j)];
-      const auto runs =
-          dem::triaxial(with_values(experiment, ContactKind::grain_grain, values), own, experiment.how).runs;
-      std::vector<Estimate> answer;
-      for (const Target& target : experiment.targets) answer.push_back(simulated(target.name, measured, runs));
-      return answer;
+      const GranularSoil soil = with_values(experiment, ContactKind::grain_grain, values);
+      std::vector<Estimate> answers(experiment.targets.size());
+      for (const AlikeSpecimens& specimens : densities) {
+        dem::TriaxialSettings own = specimens.settings;
+        own.specimen.packing = first_packing(seed, own.packings);
+        const auto settling = std::ranges::find(experiment.factors, specimens.settling, &Factor::name);
+        if (settling != experiment.factors.end())
+          own.specimen.settling_friction = values[settling - experiment.factors.begin()];
+        add_answers(answers, experiment.targets, specimens, dem::triaxial(soil, own, experiment.how).runs);
+      }
+      return answers;
     });
   };
   return test;
@@ -279,11 +293,11 @@ std::vector<Factor> usual_factors(ContactKind kind) {
   return {{"sliding_friction", 0.1, 0.9, "-"}, {"rolling_friction", 0.0, 0.5, "-"}, {"cohesion", 0.0, 1e6, "kJ/m^3"}};
 }
 
-std::vector<Factor> usual_factors_of_curves() {
-  return {{"sliding_friction", 0.2, 0.9, "-"},
-          {"rolling_friction", 0.0, 0.6, "-"},
-          {"youngs_modulus", 2e9, 40e9, "GPa"},
-          {settling_friction_factor, 0.0, 1.0, "-"}};
+std::vector<Factor> usual_factors_of_curves(const std::vector<CompressionCurve>& tests) {
+  std::vector<Factor> factors{
+      {"sliding_friction", 0.2, 0.9, "-"}, {"rolling_friction", 0.0, 0.6, "-"}, {"youngs_modulus", 2e9, 40e9, "GPa"}};
+  for (const auto& alike : by_density(tests)) factors.push_back({settling_factor_of(tests, alike), 0.0, 1.0, "-"});
+  return factors;
 }
 
 }  // namespace soilbin::compare

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "compare/experiments/compression_curves.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/telling/reports.hpp"
@@ -75,6 +76,15 @@ void add_line(Plot& plot, std::string label, const Curve& curve, const X& x, con
       over_samples({.label = std::move(label), .color = static_cast<int>(plot.series.size())}, curve, x, y));
 }
 
+/// A measured curve, dashed.
+void add_measured(Plot& plot, std::string label, const std::vector<double>& strain, const std::vector<double>& values,
+                  double factor) {
+  Series series{.label = std::move(label), .color = static_cast<int>(plot.series.size()), .dash = 1};
+  for (std::size_t k = 0; k < strain.size(); ++k)
+    series.x.push_back(100 * strain[k]), series.y.push_back(factor * values[k]);
+  plot.series.push_back(std::move(series));
+}
+
 /// Of a test; `table` is empty where it has one run, which the sentences tell.
 Report report_of(const char* test, const std::string& soil, Table table, std::vector<std::string> sentences,
                  const Json& values, Sheet sheet) {
@@ -136,7 +146,7 @@ Report report_on(const dem::DirectShearResult& result, const std::string& soil) 
                    {"Direct shear", {std::move(shear), std::move(lift)}});
 }
 
-Report report_on(const dem::TriaxialResult& result, const std::string& soil) {
+Report report_on(const dem::TriaxialResult& result, const std::string& soil, const MeasuredBeside& beside) {
   using Sample = dem::TriaxialSample;
   Table table{"",
               {"stress [kPa]", "packing", "void ratio", "peak [deg]", "at strain [%]", "dilation [deg]",
@@ -173,12 +183,29 @@ Report report_on(const dem::TriaxialResult& result, const std::string& soil) {
     add_line(stress, label, run.curve, percent, [](const Sample& s) { return s.sine(); });
     add_line(volume, label, run.curve, percent, times(&Sample::volumetric, 100));
   }
-  return report_of("triaxial", soil, std::move(table), std::move(sentences),
-                   {{"mean_diameter", result.mean_diameter},
-                    {"peak", json_of(result.peak)},
-                    {"residual", json_of(result.residual)},
-                    {"runs", std::move(runs)}},
-                   {"Triaxial compression", {std::move(stress), std::move(volume)}});
+  Json values{{"mean_diameter", result.mean_diameter},
+              {"peak", json_of(result.peak)},
+              {"residual", json_of(result.residual)},
+              {"runs", std::move(runs)}};
+  Table features{"", {"feature", "unit", "measured", "grains", "off by [errors]"}};
+  for (const FeatureBeside& one : beside.features) {
+    const double per_si = per_unit(one.measured.unit);
+    features.add({one.measured.name, one.measured.unit, number(one.measured.measured, per_si),
+                  number(one.grains, per_si), number(one.off(), 2)});
+    values["beside"].push_back({{"target", one.measured.name},
+                                {"unit", one.measured.unit},
+                                {"measured", estimate_json(one.measured.measured)},
+                                {"grains", estimate_json(one.grains)}});
+  }
+  for (const CompressionCurve& test : beside.tests) {
+    const std::string label = fmt::format("{}, {} kPa, measured", test.test, number(test.confining / 1e3));
+    add_measured(stress, label, test.strain, test.sine, 1);
+    if (!test.volumetric.empty()) add_measured(volume, label, test.strain, test.volumetric, 100);
+  }
+  Report report = report_of("triaxial", soil, std::move(table), std::move(sentences), values,
+                            {"Triaxial compression", {std::move(stress), std::move(volume)}});
+  if (!features.rows.empty()) report.add("Beside measured tests", std::move(features));
+  return report;
 }
 
 namespace {
@@ -349,6 +376,46 @@ Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil
                                                   "At the deepest, plate of", "mm", 1e3, "diameter", "pressure", means);
   return report_of("plate", soil, std::move(table), std::move(sentences),
                    {{"runs", std::move(all)}, {"at_end", std::move(means)}}, {"Plate sinkage", {std::move(plot)}});
+}
+
+Report report_on(const std::vector<dem::ConeRun>& runs, const std::string& soil, double grain) {
+  using Sample = dem::PlateSample;
+  Table table{"", {"packing", "grains", "void ratio", "cone index [kPa]", "gradient [MN/m^3]"}};
+  Json all = Json::array();
+  Plot plot{"Cone resistance [kPa]", {"depth [mm]"}};
+  std::vector<Estimate> indices, gradients;
+  for (const dem::ConeRun& run : runs) {
+    const dem::PlateRun& pressed = run.pressed;
+    indices.push_back({run.index, 0.0}), gradients.push_back({run.gradient, 0.0});
+    table.add({std::to_string(pressed.packing), std::to_string(pressed.grains), number(pressed.void_ratio),
+               number(run.index / 1e3), number(run.gradient / 1e6)});
+    all.push_back({{"packing", pressed.packing},
+                   {"void_ratio", pressed.void_ratio},
+                   {"bulk_density", pressed.density},
+                   {"speed", pressed.speed},
+                   {"index", run.index},
+                   {"gradient", run.gradient},
+                   {"depth", column(pressed.curve, &Sample::sinkage)},
+                   {"resistance", column(pressed.curve, &Sample::pressure)}});
+    add_line(plot, label_of("", pressed.packing, runs.size() > 1), pressed.curve, times(&Sample::sinkage, 1e3),
+             times(&Sample::pressure, 1e-3));
+  }
+  const double diameter = runs.front().pressed.diameter, depth = runs.front().pressed.curve.back().sinkage;
+  const Estimate index = mean_of_repeats(indices), gradient = mean_of_repeats(gradients);
+  std::vector<std::string> sentences{
+      fmt::format("A cone of {} mm, {} grains wide, from the surface to {} mm: cone index {} kPa, which grows by {} "
+                  "MN/m^3{}",
+                  number(diameter * 1e3), number(diameter / grain, 3), number(depth * 1e3), number(index, 1e-3),
+                  number(gradient, 1e-6), of_packings(runs.size())),
+      "A field's cone is narrower (20.3 or 12.8 mm) and stands on far more grains. The growth with depth is what "
+      "Turnage's relation asks for (a soil's cone_index_gradient); the index itself grows with the cone's width."};
+  return report_of("cone", soil, runs.size() > 1 ? std::move(table) : Table{}, std::move(sentences),
+                   {{"diameter", diameter},
+                    {"diameter_in_grains", diameter / grain},
+                    {"index", estimate_json(index)},
+                    {"gradient", estimate_json(gradient)},
+                    {"runs", std::move(all)}},
+                   {"Cone penetration", {std::move(plot)}});
 }
 
 Report report_on(const std::vector<dem::AnnulusRun>& runs, const std::string& soil) {

@@ -27,6 +27,7 @@ struct AngleOfReposeResult;
 struct AnnulusRun;
 struct DirectShearResult;
 struct DrawnWheel;
+struct ConeRun;
 struct PlateRun;
 struct TiltingBoardResult;
 struct TriaxialResult;
@@ -48,6 +49,7 @@ struct Finding;
 struct MeasuredPlate;
 struct MeasuredPlatesFit;
 struct PlateGroups;
+struct MeasuredBeside;
 struct MeasuredShear;
 struct MeasuredShearFit;
 struct ModelAnswers;
@@ -131,10 +133,12 @@ Report report_on(const BevameterFit& fit, const BevameterReadings& readings, con
 /// Element tests: their runs, what they give, curves; soilbin-element-test/1. `soil`: the name of the soil whose grains
 /// were tested. A list: a run a packing, or packing by packing; one at least.
 Report report_on(const dem::DirectShearResult& result, const std::string& soil);
-Report report_on(const dem::TriaxialResult& result, const std::string& soil);
+Report report_on(const dem::TriaxialResult& result, const std::string& soil, const MeasuredBeside& beside);
 Report report_on(const std::vector<dem::TiltingBoardResult>& boards, const std::string& soil);
 Report report_on(const std::vector<dem::AngleOfReposeResult>& heaps, const std::string& soil);
 Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil);
+/// `grain`: mean diameter of the soil's grains [m].
+Report report_on(const std::vector<dem::ConeRun>& runs, const std::string& soil, double grain);
 Report report_on(const std::vector<dem::AnnulusRun>& runs, const std::string& soil);
 
 /// What was found in a drawing of a wheel and what was mended in it (docs/guide/bring-a-tire.md): triangles, bodies,

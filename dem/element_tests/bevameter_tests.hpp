@@ -1,4 +1,5 @@
-// The bevameter's two tests on a bed of grains: round plates pressed in, and a ring with grousers turned under load.
+// Tests with a tool on a bed of grains: a bevameter's round plates pressed in and its ring with grousers turned under
+// load, and a cone penetrometer.
 // Sinkage counts from the mean height of what one sees from above, as that of a wheel does (docs/theory/soil-bin.md).
 //
 //   const std::vector<PlateRun> plates = plate_sinkage(grains, {.diameters = {5, 7, 9}, .sinkage = 2});  // diameters
@@ -50,6 +51,29 @@ struct PlateRun {
 /// RunStopped, Stopped.
 std::vector<PlateRun> plate_sinkage(const GranularSoil& soil, const PlateSettings& settings = {},
                                     const WorkOptions& how = {}, BedStore* beds = nullptr);
+
+/// A cone whose sides meet at 30 degrees, on a shaft half as thick as its base, as a cone penetrometer's. The field's
+/// has a base of 20.3 or 12.8 mm (after ASABE S313), that is some hundred grains of sand; this one is as wide as the
+/// grains allow.
+struct ConeSettings {
+  TestBed bed{.specimen = {}, .width = 5, .depth = 5.5};
+  double diameter = 6;    ///< of the cone's base, in mean diameters of the grains
+  double depth = 3;       ///< to which its base is pressed, in diameters of the base
+  double friction = 0.5;  ///< of the cone, share of the grains' own
+  double speed = 0.1;     ///< over sqrt(g d)
+  int samples = 100;      ///< from where its tip meets the grains
+};
+
+struct ConeRun {
+  PlateRun pressed;     ///< from where its base is level with the surface; the pressure is over the base's area
+  double index = 0;     ///< mean cone index from the surface to the depth [Pa]
+  double gradient = 0;  ///< of the line from the surface on that has this mean [Pa/m]
+};
+
+/// Throws InputError for a cone narrower than narrowest_tool and for one whose tip would come closer to the bed's floor
+/// than half of its base, RunStopped, Stopped.
+ConeRun cone_penetration(const GranularSoil& soil, const ConeSettings& settings = {}, const WorkOptions& how = {},
+                         BedStore* beds = nullptr);
 
 struct AnnulusSettings {
   TestBed bed{.specimen = {}, .width = 1.6, .depth = 0.55};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "dem/element_tests/tool_bed.hpp"
 #include "dem/surface/shapes.hpp"
@@ -26,36 +27,22 @@ void check(const PlateSettings& s) {
 /// Presses a disc into the bed's middle.
 PlateRun press_plate(const SettledBed& bed, double diameter, const PlateSettings& settings, const WorkOptions& how,
                      SteppedWork& work) {
-  const double d = mean_diameter(bed.recipe.soil), middle = bed.recipe.size.length / 2, surface = surface_of(bed);
-  Simulation simulation = simulation_on(bed, how);
+  const double d = mean_diameter(bed.recipe.soil), middle = bed.recipe.size.length / 2;
   Body disc;
   disc.name = "plate";
   const double thick = (settings.sinkage + 4) * d;  // no grain gets on top of it
   disc.surfaces.push_back({surface_at(smooth_wheel(diameter / 2, thick, 48), {}), 1});
   disc.rotation = rotation_by({pi / 2, 0, 0});  // axle upright
-  const double base = highest_within(bed, diameter / 2);
-  disc.position = {middle, middle, base + thick / 2};
-  PlateRun run;
-  run.diameter = diameter, run.speed = settings.speed * std::sqrt(bed.recipe.gravity * d);
-  run.packing = bed.recipe.packing, run.grains = number_of_grains(bed.state);
-  run.void_ratio = bed.report.void_ratio, run.density = bed.report.bulk_density;
-  disc.velocity = {0, 0, -run.speed};
-  const int index = simulation.add_body(disc);
-
-  const double way = base - surface + settings.sinkage * d, area = pi * diameter * diameter / 4;
-  const double dt = simulation.setup().numerics.dt;
-  const auto steps = steps_of_sample(way, run.speed * dt, settings.samples);
-  work.begin("pressing");
-  for (int k = 0; k < settings.samples; ++k) {
-    PlateSample sample;
-    for (std::int64_t i = 0; i < steps; ++i) {
-      work.step(simulation);
-      sample.pressure += simulation.body(index).force.z / (area * static_cast<double>(steps));
-      sample.sinkage += (surface - (simulation.body(index).position.z - thick / 2)) / static_cast<double>(steps);
-    }
-    run.curve.push_back(sample);
-  }
-  return run;
+  const double start = highest_within(bed, diameter / 2);
+  disc.position = {middle, middle, start + thick / 2};
+  return press(bed, simulation_on(bed, how),
+               {.tool = std::move(disc),
+                .base = -thick / 2,
+                .diameter = diameter,
+                .way = start - surface_of(bed) + settings.sinkage * d,
+                .speed = settings.speed * std::sqrt(bed.recipe.gravity * d),
+                .samples = settings.samples},
+               work);
 }
 
 }  // namespace

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
+
+using std::numbers::pi;
 
 void check_bed(const TestBed& bed) {
   if (!(bed.width > 1.2 && bed.depth > 0.2))
@@ -24,9 +27,9 @@ std::shared_ptr<const SettledBed> bed_for_tool(const GranularSoil& soil, const T
   return specimen_bed(specimen_recipe(soil, {side, side, bed.depth * tool}, bed.specimen), how, beds);
 }
 
-Simulation simulation_on(const SettledBed& bed, const WorkOptions& how) {
+Simulation simulation_on(const SettledBed& bed, const WorkOptions& how, double share_of_friction) {
   Setup setup = bed.setup;
-  add_wall_material(setup, bed.recipe.soil, 1);
+  add_wall_material(setup, bed.recipe.soil, share_of_friction);
   setup.numerics.skin = 0.2 * bed.recipe.soil.radius_max;
   setup.numerics.threads = how.threads;
   setup.numerics.deepest_overlap = 0.5;  // chains of grains under an edge are pressed hard
@@ -47,6 +50,30 @@ double highest_within(const SettledBed& bed, double radius) {
       top = std::max(top, grain.position.z + grain.radius);
   }
   return top;
+}
+
+PlateRun press(const SettledBed& bed, Simulation simulation, const Pressing& pressing, SteppedWork& work) {
+  const double surface = surface_of(bed), area = pi * pressing.diameter * pressing.diameter / 4;
+  PlateRun run;
+  run.diameter = pressing.diameter, run.speed = pressing.speed;
+  run.packing = bed.recipe.packing, run.grains = number_of_grains(bed.state);
+  run.void_ratio = bed.report.void_ratio, run.density = bed.report.bulk_density;
+  Body tool = pressing.tool;
+  tool.velocity = {0, 0, -pressing.speed};
+  const int index = simulation.add_body(tool);
+  const auto steps = steps_of_sample(pressing.way, pressing.speed * simulation.setup().numerics.dt, pressing.samples);
+  work.begin("pressing");
+  for (int k = 0; k < pressing.samples; ++k) {
+    PlateSample sample;
+    for (std::int64_t i = 0; i < steps; ++i) {
+      work.step(simulation);
+      const Body& at = simulation.body(index);
+      sample.pressure += at.force.z / (area * static_cast<double>(steps));
+      sample.sinkage += (surface - (at.position.z + pressing.base)) / static_cast<double>(steps);
+    }
+    run.curve.push_back(sample);
+  }
+  return run;
 }
 
 }  // namespace soilbin::dem

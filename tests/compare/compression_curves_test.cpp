@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "compare/calibrate/calibration.hpp"
 #include "compare/experiments/element_experiments.hpp"
@@ -69,6 +70,32 @@ TEST(CompressionCurves, CullinansDrainedTestsAreRead) {
   EXPECT_GT(of(tests[0], CurveFeature::volume), 0.0);
 }
 
+std::vector<std::string> names_of(const std::vector<Factor>& factors) {
+  std::vector<std::string> names;
+  for (const Factor& factor : factors) names.push_back(factor.name);
+  return names;
+}
+
+TEST(CompressionCurves, SpecimensOfEachDensitySettleApart) {
+  std::vector<CompressionCurve> tests(4, rising(0.5, 0.004, -0.01));
+  for (const auto& [k, name, void_ratio] : {std::tuple{0, "a", 0.58}, {1, "b", 0.85}, {2, "c", 0.83}, {3, "d", 0.60}})
+    tests[k].test = name, tests[k].void_ratio = void_ratio;
+  const auto densities = by_density(tests);
+  ASSERT_EQ(densities.size(), 2U);
+  const auto tests_of = [&](std::size_t i) {
+    std::vector<std::string> names;
+    for (const CompressionCurve& test : densities[i]) names.push_back(test.test);
+    return names;
+  };
+  EXPECT_THAT(tests_of(0), ElementsAre("b", "c"));  // the loosest first
+  EXPECT_THAT(tests_of(1), ElementsAre("a", "d"));
+  EXPECT_THAT(names_of(usual_factors_of_curves(tests)),
+              ElementsAre("sliding_friction", "rolling_friction", "youngs_modulus", "settling_friction.b",
+                          "settling_friction.a"));
+  EXPECT_THAT(names_of(usual_factors_of_curves({tests[1], tests[2]})),
+              ElementsAre("sliding_friction", "rolling_friction", "youngs_modulus", "settling_friction"));
+}
+
 constexpr const char* header = "test,cell_pressure_bar,axial_strain_percent,q_kPa,volumetric_strain_percent\n";
 
 std::string rows(const std::string& name, double pressure_bar) {
@@ -125,6 +152,50 @@ TEST(SlowCompressionCurves, GrainsArePressedAsTheMeasuredTests) {
   ASSERT_EQ(answer.size(), static_cast<std::size_t>(curve_features));
   for (int k = 0; k < curve_features; ++k)
     EXPECT_EQ(answer[static_cast<std::size_t>(k)].value, of(curve, static_cast<CurveFeature>(k)));
+}
+
+// A test of another density has the answers that it has alone, by its own way of settling.
+TEST(SlowCompressionCurves, ADenserTestIsAnsweredAsByItself) {
+  Soil soil;
+  soil.granular = dem::test::soft_soil();
+  soil.granular->youngs_modulus = 2e7;
+  CompressionCurve loose = rising(0.5, 0.004, -0.01), dense = loose;
+  loose.confining = dense.confining = 20e3;
+  loose.test = "loose", dense.test = "dense", dense.void_ratio = 0.55;
+  const auto answers = [&](const std::vector<CompressionCurve>& tests, const std::vector<double>& settling) {
+    ContactQuestion question;
+    question.curves = tests, question.targets = targets_of(tests), question.how.threads = 1;
+    for (const Factor& factor : usual_factors_of_curves(tests))
+      if (factor.name.starts_with(settling_friction_factor)) question.factors.push_back(factor);
+    std::vector<double> values;
+    for (const Estimate& one :
+         contact_test(soil, question).run(Eigen::Map<const Eigen::VectorXd>(settling.data(), settling.size()), 1))
+      values.push_back(one.value);
+    return values;
+  };
+  std::vector<double> apart = answers({loose}, {1.0});
+  const std::vector<double> denser = answers({dense}, {0.0});
+  apart.insert(apart.end(), denser.begin(), denser.end());
+  EXPECT_EQ(answers({loose, dense}, {1.0, 0.0}), apart);
+}
+
+TEST(SlowCompressionCurves, StandBesideTheGrainsAtTheirPressure) {
+  CompressionCurve measured = rising(0.5, 0.004, -0.01);
+  measured.confining = 20e3;
+  dem::TriaxialSettings cell = pressed_as(std::vector{measured}, {.side = 5, .height = 8});
+  EXPECT_THAT(cell.stresses, ElementsAre(20e3));
+  EXPECT_EQ(cell.strain, measured.strain.back());
+  cell.strain = 0.1, cell.samples = 200;
+  GranularSoil grains = dem::test::soft_soil();
+  grains.youngs_modulus = 2e7;
+  const auto runs = dem::triaxial(grains, cell).runs;
+  const MeasuredBeside beside = beside_measured({measured}, runs);
+  ASSERT_EQ(beside.features.size(), static_cast<std::size_t>(curve_features));
+  const FeatureBeside& peak = beside.features.front();
+  EXPECT_EQ(peak.measured.name, "peak_angle.made");
+  EXPECT_EQ(peak.grains.value, of(curve_of(runs.front()), CurveFeature::peak_angle));
+  EXPECT_DOUBLE_EQ(peak.off() * peak.measured.measured.std_error,
+                   peak.grains.value - peak.measured.measured.value);  // one packing has no error of its own
 }
 
 }  // namespace
