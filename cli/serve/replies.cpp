@@ -14,7 +14,6 @@
 #include "cli/serve/served_answer.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/report/page.hpp"
-#include "compare/sweep/answers.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/sweep/wheel_limits.hpp"
 #include "compare/telling/answer_report.hpp"
