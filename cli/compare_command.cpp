@@ -86,7 +86,7 @@ int compare_models(CompareOptions asked, const CLI::App& command, const Session&
         "--model bekker_wong leaves the grains out, and --recorded asks for them\n  hint: give one of the two");
   if (!asked.soil_bin.recorded.empty())
     asked.soil_bin.recorded = find_record(session.place, asked.study, asked.soil_bin.recorded);
-  Case question = find_case(session.place, asked.study);
+  Case question = find_study(session.place, asked.study);
   asked.conditions.pick(question);
   check_flags(asked, command, question);
   compare::ComparisonAbout about;
@@ -109,12 +109,12 @@ int compare_models(CompareOptions asked, const CLI::App& command, const Session&
     about.facts.insert(about.facts.end(), of.grains.facts.begin(), of.grains.facts.end());
     sides.push_back(std::move(of.grains.side)), runs = std::move(of.runs);
   }
-  compare::Doubts doubts = compare::doubts(question, choices, sides);
+  compare::Doubts doubts = compare::doubts(question, sides);
   append(doubts, compare::bed_density_doubts(question.scenario.soil, runs));
   question.scenario.soil.name = values.title(!runs.empty());
   if (!asked.measured.empty())
     sides.push_back(compare::side_of(find_campaign(session.place, asked.measured), question));
-  const compare::Comparison comparison = compare::compare_sides(question, choices, std::move(sides));
+  const compare::Comparison comparison = compare::compare_sides(question, std::move(sides));
   if (!asked.no_loop) about.loop = ask_loop(comparison, asked.seed);
   about.title = asked.title.empty() ? "Comparison: " + question.study.name : asked.title;
   about.command = session.command, about.versions = versions();

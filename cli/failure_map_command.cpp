@@ -27,7 +27,7 @@ namespace {
 /// Most conditions that a Gaussian process learns from in seconds.
 constexpr long long most_conditions_of_map = 1000;
 
-struct FailureMapOptions {
+struct FailureMapFlags {
   std::string study, soil, incline = "longitudinal", of = "bekker_wong", against = "dem", store, tolerance = "10%";
   std::string load, lug_height, angle, slip;
   std::vector<std::string> effects;
@@ -89,7 +89,7 @@ void take_flags(CLI::App& command, const compare::ExperimentStore& store, bool g
 }
 
 /// Effects of the analytic wheel: those of --effect, or, without one, of the study's first analytic model.
-std::vector<EffectChoice> effects_of(const FailureMapOptions& asked, const Case& question, const Workplace& place) {
+std::vector<EffectChoice> effects_of(const FailureMapFlags& asked, const Case& question, const Workplace& place) {
   std::vector<EffectChoice> effects;
   if (asked.effects == std::vector<std::string>{"none"}) return effects;
   for (const std::string& text : asked.effects) add_effect(effects, text, place.effects, question.scenario.soil);
@@ -98,7 +98,7 @@ std::vector<EffectChoice> effects_of(const FailureMapOptions& asked, const Case&
   return analytic == question.study.models.end() ? effects : analytic->effects;
 }
 
-compare::InclineMap map_of(const FailureMapOptions& asked, const Case& question, const Workplace& place) {
+compare::InclineMap map_of(const FailureMapFlags& asked, const Case& question, const Workplace& place) {
   compare::InclineMap map;
   map.of = read_word<ModelKind>("--of", asked.of), map.against = read_word<ModelKind>("--against", asked.against);
   map.scenario = question.scenario;
@@ -125,7 +125,7 @@ struct PlannedExperiments {
 };
 
 /// The experiments that the map would make first, as runs and their cost; more are chosen by their answers.
-int plan(const FailureMapOptions& asked, Case question, const compare::InclineMap& map,
+int plan(const FailureMapFlags& asked, Case question, const compare::InclineMap& map,
          const PlannedExperiments& experiments) {
   std::vector<compare::RunSpec> list;
   std::vector<std::string> lugs;
@@ -157,14 +157,14 @@ int plan(const FailureMapOptions& asked, Case question, const compare::InclineMa
   return done;
 }
 
-int tell(const compare::FailureMapResult& result, const compare::MapGrains& grains, const FailureMapOptions& asked,
+int tell(const compare::FailureMapResult& result, const compare::MapGrains& grains, const FailureMapFlags& asked,
          const Case& question, const Session& session) {
-  const compare::FailureMapAbout about{"Failure map: " + name_of(result.map.incline),
+  const compare::FailureMapAbout about{"Failure map: " + name_of(result.asked.incline),
                                        write_case(question, session.place.effects), asked.rows};
   return publish(compare::report_on(result, about), asked.outputs, doubts_of(result, grains), session).status(done);
 }
 
-int failure_map(FailureMapOptions& asked, CLI::App& command, const Session& session) {
+int failure_map(FailureMapFlags& asked, CLI::App& command, const Session& session) {
   Case question = find_study(session.place, asked.study);
   const bool grains_asked = read_word<ModelKind>("--of", asked.of) == ModelKind::dem ||
                             read_word<ModelKind>("--against", asked.against) == ModelKind::dem;
@@ -221,7 +221,7 @@ int failure_map(FailureMapOptions& asked, CLI::App& command, const Session& sess
     clear_progress_line();
     if (asked.dry_run) return plan(asked, question, map, {*runs.asked, *coarser.asked});
     if (grains.waits()) return asked.batch.write(runs);
-    result.map.scenario.soil.name = values.title(true);
+    result.asked.scenario.soil.name = values.title(true);
     return tell(result, grains, asked, question, session);
   } catch (const Interrupted&) {
     if (!asked.store.empty())
@@ -235,7 +235,7 @@ int failure_map(FailureMapOptions& asked, CLI::App& command, const Session& sess
 void add_failure_map(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand(
       "failure-map", "where two models disagree, the analytic wheel and grains, say, over load, lugs, slip and slope");
-  const auto asked = std::make_shared<FailureMapOptions>();
+  const auto asked = std::make_shared<FailureMapFlags>();
   add_value(*command, "study", asked->study, "STUDY", "the study whose wheel, soil, bin and speed are taken")
       ->required();
   add_value(*command, "--soil", asked->soil, "SOIL",

@@ -110,7 +110,7 @@ void OutputFlags::add_to(CLI::App& command, const Meanings& meanings) {
 Outputs publish(compare::Report report, const OutputFlags& asked, const compare::Doubts& doubts,
                 const Session& session) {
   print_warnings(doubts);
-  const compare::PageAbout about{"", session.command, versions(), in_words(doubts)};
+  const compare::PageAbout about{session.command, versions(), in_words(doubts)};
   if (report.data)
     report.data = [answer = report.data, &doubts] {
       nlohmann::ordered_json document = answer();

@@ -216,17 +216,4 @@ void Integrator::restart(const std::vector<double>& state) {
 const std::vector<double>& Integrator::state() const { return body_->state; }
 const std::vector<double>& Integrator::sums() const { return body_->sum_values; }
 
-Effort Integrator::effort() const {
-  Effort e;
-  void* m = body_->memory.handle;
-  CVodeGetNumSteps(m, &e.steps);
-  CVodeGetNumRhsEvals(m, &e.rate_calls);
-  CVodeGetNumJacEvals(m, &e.jacobians);
-  CVodeGetNumErrTestFails(m, &e.failed_steps);
-  long by_jacobian = 0;
-  CVodeGetNumLinRhsEvals(m, &by_jacobian);
-  e.rate_calls += by_jacobian;
-  return e;
-}
-
 }  // namespace soilbin::sundials

@@ -30,11 +30,6 @@ struct Stop {
   bool at_root() const { return !signs.empty(); }
 };
 
-/// What the integration took.
-struct Effort {
-  long steps = 0, rate_calls = 0, jacobians = 0, failed_steps = 0;
-};
-
 /// Variable-order BDF with Newton's method and a dense difference-quotient Jacobian: CVODES (Hindmarsh et al. 2005, ACM
 /// Trans. Math. Softw. 31:363). Not to be copied.
 class Integrator {
@@ -55,7 +50,6 @@ class Integrator {
 
   const std::vector<double>& state() const;
   const std::vector<double>& sums() const;
-  Effort effort() const;
 
  private:
   struct Body;

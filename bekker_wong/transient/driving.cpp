@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bekker_wong/transient/cvodes.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::bekker_wong {
@@ -50,7 +51,6 @@ class Ride {
       record_.samples.push_back(sample(record_.end_time));
       if (progress) progress(record_.end_time, drive_.duration);
     }
-    record_.effort = integrator_.effort();
     return std::move(record_);
   }
 

@@ -7,7 +7,6 @@
 #include <functional>
 #include <vector>
 
-#include "bekker_wong/transient/cvodes.hpp"
 #include "bekker_wong/transient/driven_wheel.hpp"
 #include "scenario/drive_record.hpp"
 
@@ -35,7 +34,6 @@ struct DriveRecord {
   double end_time = 0.0;             ///< found to the integration's tolerance, not to a sample
   std::vector<DriveSample> samples;  ///< at equal times, and one at the end
   std::vector<DriveHappening> happenings;
-  sundials::Effort effort;
 };
 
 /// Called with the time reached and the drive's duration [s]; may throw to stop the work.

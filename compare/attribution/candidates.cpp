@@ -62,9 +62,6 @@ std::optional<FittedModel> fit_terms(const FittedModel& base, const std::vector<
   return best;
 }
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 namespace {
 
 /// The strongest signatures, at most a few forms an effect.
@@ -483,7 +480,6 @@ double p_beside_others(const Attribution& found, const CandidateModel& candidate
 }
 
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 MatrixXd model_discrepancy_columns(const FittedModel& base) {
   Observations own = base.data().observations;

@@ -1,9 +1,8 @@
-// Stage 5 of the loop: which candidate stands on conditions left out, what it leaves, which others the data can't
-// tell from it, and the verdict.
+// Stage 5 of the loop: which candidate stands on conditions left out, which others the data can't tell from it, and the
+// verdict.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,71 +11,15 @@
 
 #include "compare/attribution/candidates.hpp"
 #include "compare/attribution/predictive_gain.hpp"
-#include "compare/fit/fitted_model.hpp"
+#include "compare/attribution/residual_tests.hpp"
 
 namespace soilbin::compare {
-
-// Is anything left over? Lack of fit against the noise, and residuals against every variable.
-
-/// Residual mean square over the noise's, as an F test (Draper and Smith, Applied Regression Analysis, ch. 2).
-struct LackOfFit {
-  double f = 0.0;
-  double freedom = 0.0;        ///< of the residual
-  double noise_freedom = 0.0;  ///< behind the noise estimate
-  double p_value = 1.0;
-};
-LackOfFit lack_of_fit(const FittedModel& model);
-
-/// Lack of fit against re-runs alone, channel by channel: the scatter of the setpoints' mean residuals over that within
-/// setpoints (pure error; Draper and Smith, ch. 2), the setpoint farthest off left out, for it may be an outlier. It
-/// needs no estimate of the noise but how it grows with the signal, so it also sees what no smooth function of the
-/// conditions follows and would pass for noise.
-struct RerunTest {
-  double p_value = 1.0;  ///< least of the channels', times their number; 1 where no channel has re-runs enough
-  double excess = 0.0;   ///< squares of setpoints' means beyond what the re-runs explain, in theirs, over the channels
-};
-RerunTest rerun_test(const FittedModel& model);
-
-/// Do runs made one after the other err alike? Serial correlation of the residuals in the order of the runs: of each
-/// channel, and of a gain that all forces of a run share. An amplifier that warms, a bed that dries, another operator.
-/// It needs no estimate of the noise, which such changes raise.
-struct SerialTest {
-  double p_value = 1.0;        ///< least of the series', times their number; 1 where the order isn't known
-  std::optional<int> channel;  ///< whose series reaches it (Channel); none: the gain that all forces share
-};
-/// By the correlations over 1, 2, .. L runs, L a twelfth of them, the nearer the heavier (Bartlett's weights), against
-/// rearrangements of the runs. Deterministic for a seed.
-SerialTest serial_test(const FittedModel& model, int permutations, std::uint64_t seed);
-
-/// Does a channel's residual depend on a variable? Share of its variance that a parabola in the variable explains,
-/// with its p-value from permutations that keep the re-runs of a setpoint together (SetpointPermutation): what they
-/// share, the model's error at that setpoint above all, is seen once, however often it was run.
-struct Dependence {
-  int channel = 0;
-  std::string variable;
-  double share = 0.0;
-  double p_value = 1.0;
-  /// Least share of false findings, in expectation, among this and all that are surer: of all channels and variables of
-  /// the table (Benjamini and Hochberg 1995, J. R. Stat. Soc. B 57:289).
-  double false_discovery_rate = 1.0;
-};
-/// residual: whitened, a cell each. Deterministic for a seed.
-std::vector<Dependence> dependences(const Observations& observations, const Eigen::VectorXd& residual, int permutations,
-                                    std::uint64_t seed);
 
 /// The rule by which an effect is accepted: conditions left out are predicted better by a standard error; or better at
 /// all, where the odds pass thresholds::odds_enough: with a dozen conditions a standard error is more than a real
 /// effect reaches.
 /// log_odds: ln evidence over the model without it, its price paid.
 bool earns_its_place(const PredictiveGain& gain, double log_odds);
-
-/// What a model leaves, against the noise and against re-runs.
-struct ResidualTests {
-  LackOfFit lack_of_fit;
-  RerunTest reruns;
-  SerialTest serial;
-};
-ResidualTests test_residual(const FittedModel& model, std::uint64_t seed);
 
 /// The candidate that is left after each of its effects had to earn its place.
 struct ChosenCandidate {
@@ -197,7 +140,7 @@ struct Judgement {
     return std::visit([](const auto& ground) { return ground.verdict; }, reason);
   }
   /// Whether the model uses the best candidate's effects: accepted, or in place of an unknown one.
-  bool uses_candidate() const {
+  bool may_use_candidate() const {
     return choice && choice->stands &&
            (std::holds_alternative<StandsOut>(reason) || std::holds_alternative<MoreThanNamed>(reason) ||
             std::holds_alternative<BaseModelWrong>(reason));
@@ -211,7 +154,7 @@ std::optional<TooFewValues> too_small(const Campaign& campaign, const Observatio
 Judgement judge(Attribution found, const AttributionOptions& options);
 
 /// A judgement whose effects conditions left out refute: nothing is missing, or something unknown.
-Judgement without_its_effects(Judgement judgement, const Refuted& refuted);
+Judgement refuted_by(Judgement judgement, const Refuted& refuted);
 
 /// An unknown effect, attributed with a model discrepancy and with a candidate that stands out: it stays unknown.
 Judgement judge_with_model_discrepancy(Attribution found, const AttributionOptions& options);

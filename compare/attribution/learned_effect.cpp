@@ -179,11 +179,7 @@ std::vector<LearnedEffect> learn_effects(const FittedModel& beside, const Attrib
   return learned;
 }
 
-using bekker_wong::EffectForm;
 using bekker_wong::FormulaTerm;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 namespace {
 

@@ -38,7 +38,7 @@ FoldResult run_fold(const Dataset& whole, const NoiseFloor& noise, const Validat
   const FittedModel& base = exact.base;
   const CandidateModel* chosen =
       found.candidates.best ? &found.candidates.models[choose(found, options.attribution).candidate] : nullptr;
-  const FittedModel* better = chosen && options.takes_named ? &chosen->model : nullptr;
+  const FittedModel* better = chosen && options.use_candidate ? &chosen->model : nullptr;
   std::vector<LearnedEffect> learned;
   if (options.learn) learned = learn_effects(refitted_as_exact(base, better), options.attribution);
   FoldResult result;
@@ -150,13 +150,13 @@ CrossValidation cross_validate(const Dataset& whole, const NoiseFloor& noise, co
   return cv;
 }
 
-CrossValidation without_effects(CrossValidation validation, const Observations& whole) {
+CrossValidation errors_of_base_alone(CrossValidation validation, const Observations& whole) {
   for (HeldOut& held : validation.cells) held.after = held.named = held.before;
   sum_up(whole, validation);
   return validation;
 }
 
-CrossValidation without_learned_effects(CrossValidation validation, const Observations& whole) {
+CrossValidation errors_without_learned(CrossValidation validation, const Observations& whole) {
   for (HeldOut& held : validation.cells) held.after = held.named;
   sum_up(whole, validation);
   return validation;

@@ -41,7 +41,7 @@ struct ValidationOptions {
   AttributionOptions attribution;
   bool with_model_discrepancy = false;  ///< choose with the base model's discrepancy, where that can be attributed;
                                         ///< errors before are those of the base model taken as exact, all the same
-  bool takes_named = true;              ///< the model whose error is asked for has the named effects that are chosen
+  bool use_candidate = true;            ///< the model whose error is asked for has the named effects that are chosen
   bool learn = false;  ///< beside the chosen model learned effects, looked for and accepted anew in each fold
   int folds = 5;
   int threads = 1;    ///< folds at once; the answer does not depend on it
@@ -54,9 +54,9 @@ struct ValidationOptions {
 CrossValidation cross_validate(const Dataset& whole, const NoiseFloor& noise, const ValidationOptions& options);
 
 /// A validation as it would be without learned effects. whole: the observations that it is of.
-CrossValidation without_learned_effects(CrossValidation validation, const Observations& whole);
+CrossValidation errors_without_learned(CrossValidation validation, const Observations& whole);
 
 /// A validation as it would be of the base model alone: nothing changes.
-CrossValidation without_effects(CrossValidation validation, const Observations& whole);
+CrossValidation errors_of_base_alone(CrossValidation validation, const Observations& whole);
 
 }  // namespace soilbin::compare

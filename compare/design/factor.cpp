@@ -43,9 +43,6 @@ MatrixXd unit_points(const LevelTable& design) {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-
 /// Bits of the standard's engine, turned into numbers by hand: the standard's distributions differ between libraries.
 class Draw {
  public:

@@ -111,11 +111,10 @@ void check_soil_for_loop(const Soil& soil) {
         "soil, as bevameter writes one; --no-loop compares without the loop");
 }
 
-Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& choices, std::vector<Side> sides) {
+Comparison compare_sides(const Case& question, std::vector<Side> sides) {
   std::ranges::stable_sort(sides, [](const Side& a, const Side& b) { return a.kind < b.kind; });
   Comparison comparison{
-      question, curves_against_slip(question.study.conditions, Spread::exact), std::move(sides), {}, {}, {}, {},
-      choices};
+      question, curves_against_slip(question.study.conditions, Spread::exact), std::move(sides), {}, {}, {}, {}};
   for (const auto& [side, reference] : pairs_of(comparison.sides)) {
     const std::vector<Difference> rows =
         differences(comparison.sides, side, reference, question.study.conditions, question.scenario.tire);
@@ -124,11 +123,9 @@ Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& c
       continue;
     }
     comparison.differences.insert(comparison.differences.end(), rows.begin(), rows.end());
-    if (side >= choices.size() || comparison.sides[side].kind != SideKind::analytic ||
-        comparison.sides[reference].kind == SideKind::analytic ||
-        choices[side].model != ModelKind::bekker_wong)  // whose soil alone the test moves
-      continue;
-    JointOutcome outcome = joint_test(comparison.sides[reference], question, choices[side]);
+    const Side &one = comparison.sides[side], &other = comparison.sides[reference];
+    if (!is_by(one, ModelKind::bekker_wong) || other.kind == SideKind::analytic) continue;  // it moves that one's soil
+    JointOutcome outcome = joint_test(other, question, *one.choice);
     if (outcome.test) {
       outcome.test->side = side, outcome.test->reference = reference;
       comparison.joint.push_back(std::move(*outcome.test));
@@ -185,16 +182,13 @@ std::optional<LoopOfComparison> ask_loop(const Comparison& comparison, const Loo
 namespace {
 
 /// Sides that are models' as their answers.
-std::vector<ModelAnswers> answers_of(const Case& question, const std::vector<ModelChoice>& choices,
-                                     const std::vector<Side>& sides) {
+std::vector<ModelAnswers> answers_of(const Case& question, const std::vector<Side>& sides) {
   std::vector<ModelAnswers> study;
-  for (std::size_t s = 0; s < sides.size(); ++s) {
-    if (sides[s].kind == SideKind::measured) continue;
-    const bool grains = sides[s].kind == SideKind::grains;
-    study.push_back({grains ? ModelChoice{ModelKind::dem, {}, sides[s].label} : choices.at(s), {}});
-    for (std::size_t i = 0; i < sides[s].points.size(); ++i)
-      study.back().answers.push_back(
-          {question.study.conditions[i], sides[s].points[i].result, sides[s].points[i].error});
+  for (const Side& side : sides) {
+    if (side.kind == SideKind::measured) continue;
+    study.push_back({side.choice.value_or(ModelChoice{ModelKind::dem, {}, side.label}), {}});
+    for (std::size_t i = 0; i < side.points.size(); ++i)
+      study.back().answers.push_back({question.study.conditions[i], side.points[i].result, side.points[i].error});
   }
   return study;
 }
@@ -203,8 +197,8 @@ std::vector<ModelAnswers> answers_of(const Case& question, const std::vector<Mod
 
 bool tires_differ(const Comparison& comparison, std::size_t side, std::size_t reference) {
   const auto flexible = [&](std::size_t s) {
-    return comparison.sides[s].kind == SideKind::analytic && s < comparison.choices.size() &&
-           bekker_wong::is_flexible(comparison.choices[s].effects);
+    const std::optional<ModelChoice>& choice = comparison.sides[s].choice;
+    return choice && bekker_wong::is_flexible(choice->effects);
   };
   const auto rigid = [&](std::size_t s) { return comparison.sides[s].kind == SideKind::grains; };
   return (flexible(side) && rigid(reference)) || (rigid(side) && flexible(reference));
@@ -214,11 +208,11 @@ bool grains_are_coarse(const Comparison& comparison) {
   const auto of_grains = [](const Side& side) { return side.kind == SideKind::grains; };
   const Case& question = comparison.question;
   return std::ranges::any_of(comparison.sides, of_grains) &&
-         grains_are_coarse(question.scenario, answers_of(question, comparison.choices, comparison.sides));
+         grains_are_coarse(question.scenario, answers_of(question, comparison.sides));
 }
 
-Doubts doubts(const Case& question, const std::vector<ModelChoice>& choices, const std::vector<Side>& sides) {
-  const std::vector<ModelAnswers> study = answers_of(question, choices, sides);
+Doubts doubts(const Case& question, const std::vector<Side>& sides) {
+  const std::vector<ModelAnswers> study = answers_of(question, sides);
   Case asked = question;
   asked.study.models.clear();
   for (const ModelAnswers& model : study) asked.study.models.push_back(model.choice);

@@ -1,7 +1,7 @@
 // A study's models and measurements side by side: how far apart, how sure, and why (docs/theory/comparing.md).
 //
 //   const std::vector<Side> sides = {side_of(analytic), side_of("dem", runs, question.study.conditions)};
-//   const Comparison comparison = compare_sides(question, {analytic.choice}, sides);
+//   const Comparison comparison = compare_sides(question, sides);
 //   for (const Clause& clause : summary(comparison)) fmt::print("{}\n", clause.text);  // telling/comparison_report.hpp
 #pragma once
 
@@ -91,12 +91,10 @@ struct Comparison {
   std::vector<Tally> tallies;           ///< by pair, channel
   std::vector<JointTest> joint;         ///< an analytic side against a reference each, where it can be made
   std::vector<NotCompared> not_compared;
-  std::vector<ModelChoice> choices;  ///< of the analytic sides
 };
 
-/// Sides have a point for each condition of the question. `choices`: of each analytic side, its model and effects, for
-/// the joint test; in the sides' order.
-Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& choices, std::vector<Side> sides);
+/// Sides have a point for each condition of the question.
+Comparison compare_sides(const Case& question, std::vector<Side> sides);
 
 /// A side's results as a measured campaign: a run for each condition with a result, at its mean. The declared soil and
 /// wheel are the case's. Throws InputError where the case has no semi-empirical soil or the side no result.
@@ -125,9 +123,9 @@ bool tires_differ(const Comparison& comparison, std::size_t side, std::size_t re
 /// Whether the grains of a side are coarse for the wheel (doubts/grain_doubts.hpp).
 bool grains_are_coarse(const Comparison& comparison);
 
-/// What is doubtful in models side by side (compare/doubts/doubts.hpp): the analytic ones by `choices`, then grains
-/// where there are any.
-Doubts doubts(const Case& question, const std::vector<ModelChoice>& choices, const std::vector<Side>& sides);
+/// What is doubtful in models side by side (compare/doubts/doubts.hpp): the analytic ones, then grains where there
+/// are any.
+Doubts doubts(const Case& question, const std::vector<Side>& sides);
 
 // Why sides differ: parts of the pull side by side, where the contact begins and ends, what slip adds to the sinkage.
 

@@ -94,9 +94,7 @@ std::vector<Difference> differences(const std::vector<Side>& sides, std::size_t 
       if (!speaks(a, c) || !speaks(b, c)) continue;
       all.push_back(difference_at(a, b, c, channel_scale(channel_views[c], conditions[i].load, tire.radius)));
       all.back().side = side, all.back().reference = reference, all.back().condition = i;
-      if (sides[side].kind == SideKind::analytic && sides[reference].kind == SideKind::analytic &&
-          sides[side].model == sides[reference].model)
-        share_the_soil(all.back());
+      if (sides[reference].choice && is_by(sides[side], sides[reference].choice->model)) share_the_soil(all.back());
     }
   }
   return all;

@@ -54,7 +54,7 @@ std::vector<Side> analytic_sides(Case question, const std::vector<ModelChoice>& 
 
 Side side_of(const ModelAnswers& answers) {
   Side side{answers.choice.label, answers.choice.model == ModelKind::dem ? SideKind::grains : SideKind::analytic, {}};
-  side.model = answers.choice.model;
+  if (side.kind == SideKind::analytic) side.choice = answers.choice;
   for (const Answer& answer : answers.answers) {
     SidePoint point;
     point.result = answer.result;

@@ -57,7 +57,7 @@ struct Side {
   std::string label;
   SideKind kind = SideKind::analytic;
   std::vector<SidePoint> points;
-  ModelKind model = ModelKind::bekker_wong;  ///< of an analytic side: which of the quick models
+  std::optional<ModelChoice> choice{};  ///< of an analytic side: its model and effects
   /// Of grains: whether the runs tell how far packings scatter, be it less than single runs' own errors.
   bool scatter_known = false;
   /// Of a measurement: the noise of one run, from all re-runs of the campaign.
@@ -66,6 +66,9 @@ struct Side {
   std::vector<Run> runs{};
   Doubts doubts{};  ///< in all its points: whether a record hangs on the time step
 };
+
+/// Whether a side is of this quick model.
+inline bool is_by(const Side& side, ModelKind model) { return side.choice && side.choice->model == model; }
 
 /// A model's answers as a side. Of grains, scatter is the answers' standard error.
 Side side_of(const ModelAnswers& answers);

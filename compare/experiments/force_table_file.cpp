@@ -5,18 +5,6 @@
 #include "dem/archive/hdf5.hpp"
 
 namespace soilbin::compare {
-namespace {
-
-/// The unit in which a condition stands in the file: as everywhere inside.
-std::string si_unit_in_file(const ConditionView& view) {
-  const std::string unit(view.column_unit);
-  if (unit == "deg") return "rad";
-  if (unit == "kPa") return "Pa";
-  return unit == "%" ? "-" : unit;
-}
-
-}  // namespace
-
 std::string hdf5_of(const ForceTable& table, const TableFileAbout& about) {
   namespace hdf5 = dem::hdf5;
   hdf5::OutputFile file(about.name);
@@ -34,7 +22,7 @@ std::string hdf5_of(const ForceTable& table, const TableFileAbout& about) {
   for (const TableAxis& axis : table.axes) {
     const std::string name(axis.view->name);
     axes.write(name, hdf5::Number::f64, {axis.nodes.size()}, axis.nodes.data());
-    axes.set_free_text("unit", si_unit_in_file(*axis.view), name);
+    axes.set_free_text("unit", si_unit_of(*axis.view), name);
     shape.push_back(axis.nodes.size());
     order += (order.empty() ? "" : " ") + name;
   }

@@ -57,16 +57,15 @@ void run(const FailureQuestion& question, const FailureMapOptions& options, cons
   map.rows.push_back(row_at(question, from_unit(question.factors, unit)));
 }
 
-void learn(const FailureQuestion& question, std::uint64_t seed, FailureMap& map) {
-  map.surrogate.clear();
-  map.surrogate.emplace_back(samples_of(question, map.rows), SurrogateOptions{.seed = seed});
-  map.held_out = map.surrogate[0].mode().leave_one_out();
-  map.resolution_error.clear();
+void learn(const FailureQuestion& question, FailureMap& map) {
+  map.surrogate.emplace(samples_of(question, map.rows), SurrogateOptions{.seed = map.seed});
+  map.held_out = map.surrogate->mode().leave_one_out();
+  map.resolution_error.reset();
   const Samples errors = rows_with(&FailureRow::resolution_error, map.rows, [&](const VectorXd& values) -> VectorXd {
     return to_unit(question.factors, values);
   });
   if (errors.size() >= static_cast<Index>(question.factors.size()) + 2)
-    map.resolution_error.emplace_back(errors, SurrogateOptions{.seed = seed});
+    map.resolution_error.emplace(errors, SurrogateOptions{.seed = map.seed});
 }
 
 /// The difference from the grains as they are, and from infinitely fine ones.
@@ -76,9 +75,9 @@ struct BothGrains {
 
 BothGrains both_at(const FailureQuestion& question, const FailureMap& map, const VectorXd& values) {
   const VectorXd unit = to_unit(question.factors, values);
-  const Estimate coarse = map.surrogate.at(0).predict(unit);
-  if (map.resolution_error.empty()) return {coarse, coarse};
-  const Estimate error = map.resolution_error[0].predict(unit);
+  const Estimate coarse = map.surrogate.value().predict(unit);
+  if (!map.resolution_error) return {coarse, coarse};
+  const Estimate error = map.resolution_error->predict(unit);
   return {coarse, {coarse.value - error.value, std::hypot(coarse.std_error, error.std_error)}};
 }
 
@@ -140,7 +139,7 @@ bool FailureRow::beyond(double tolerance) const {
 }
 
 Estimate FailureMap::at(const FailureQuestion& question, const VectorXd& values) const {
-  return surrogate.at(0).predict(to_unit(question.factors, values));
+  return surrogate.value().predict(to_unit(question.factors, values));
 }
 
 Estimate FailureMap::at_fine(const FailureQuestion& question, const VectorXd& values) const {
@@ -165,14 +164,9 @@ double FailureMap::largest_at(const FailureQuestion& question, const VectorXd& v
                   std::abs(fine.value) + one_sided_95 * fine.std_error);
 }
 
-void add_row(const FailureQuestion& question, const VectorXd& values, FailureMap& map, std::uint64_t seed) {
-  map.rows.push_back(row_at(question, values));
-  if (!question.waits()) learn(question, seed, map);
-}
-
 FailureMap map_failures(const FailureQuestion& question, const FailureMapOptions& options) {
   const int d = static_cast<int>(question.factors.size());
-  FailureMap map;
+  FailureMap map{.seed = options.seed};
   const MatrixXd start = maximin_latin_hypercube(options.first, d, options.seed);
   std::vector<VectorXd> points;
   for (Index i = 0; i < start.rows(); ++i) points.push_back(start.row(i));
@@ -187,16 +181,13 @@ FailureMap map_failures(const FailureQuestion& question, const FailureMapOptions
     if (points.empty()) break;
     if (!run_together()) return map;
   }
-  learn(question, options.seed, map);
+  learn(question, map);
   return map;
 }
 
 // The box of conditions in which two models agree, as a clause.
 
 namespace {
-
-using Eigen::Index;
-using Eigen::VectorXd;
 
 /// A grid over the box: every combination of node numbers, the last factor fastest.
 class FactorGrid {
@@ -366,8 +357,9 @@ std::optional<AgreementClause> agreement(const FailureQuestion& question, Failur
   const FactorGrid grid(question, roles, nodes);
   std::optional<Box> box = largest_box(question, map, roles, grid);
   for (int round = 0; round < rounds && box && !was_run(map, box->most_doubtful); ++round) {
-    add_row(question, box->most_doubtful, map);
+    map.rows.push_back(row_at(question, box->most_doubtful));
     if (question.waits()) return std::nullopt;
+    learn(question, map);
     box = largest_box(question, map, roles, grid);
   }
   if (!box) return std::nullopt;

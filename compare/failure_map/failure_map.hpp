@@ -4,7 +4,8 @@
 //   const FailureQuestion question{.name = "straight", .factors = {{"load", 2000, 8000, "N"}, {"slip", 0.05, 0.6}},
 //                                  .difference = difference, .tolerance = 0.1};  // of the load
 //   FailureMap map = map_failures(question, {.first = 24});
-//   if (const auto clause = agreement(question, map, {Role::limited, Role::whole})) fmt::print("{}\n", clause->text);
+//   if (const auto clause = agreement(question, map, {Role::limited, Role::whole})) fmt::print("up to {}\n",
+//   clause->upper[0]);
 #pragma once
 
 #include <array>
@@ -68,10 +69,11 @@ constexpr std::array<Word<Judged>, 3> words_of(std::type_identity<Judged>) {
 }
 
 struct FailureMap {
-  std::vector<FailureRow> rows;
-  std::vector<Surrogate> surrogate;         ///< one
-  LeaveOneOut held_out;                     ///< the surrogate's own test, in shares of the load
-  std::vector<Surrogate> resolution_error;  ///< one, or none where too few rows know theirs
+  std::uint64_t seed = 1;  ///< of its surrogates
+  std::vector<FailureRow> rows{};
+  std::optional<Surrogate> surrogate{};         ///< of all rows with an answer, once they are run
+  LeaveOneOut held_out{};                       ///< the surrogate's own test, in shares of the load
+  std::optional<Surrogate> resolution_error{};  ///< none where too few rows know theirs
   /// Difference at values of the factors, as the surrogate has it.
   Estimate at(const FailureQuestion& question, const Eigen::VectorXd& values) const;
   /// at() less the resolution error: the difference from infinitely fine grains; at() alone where no row knows it.
@@ -83,9 +85,6 @@ struct FailureMap {
   /// Largest |difference| that is to be reckoned with there: the upper end of one-sided 95 %, of both kinds of grains.
   double largest_at(const FailureQuestion& question, const Eigen::VectorXd& values) const;
 };
-
-/// Runs one more condition and learns from it.
-void add_row(const FailureQuestion& question, const Eigen::VectorXd& values, FailureMap& map, std::uint64_t seed = 1);
 
 /// Throws NoSolution where too few conditions have an answer of both models. Where the question waits, after all
 /// `first` runs or one batch, the map is not finished.

@@ -212,7 +212,7 @@ std::vector<FreshCheck> check_fresh(const FailureQuestion& question, const Failu
                                     std::uint64_t seed) {
   constexpr std::uint64_t of_checks = 1'000'000;  // far from the seeds of designs and clouds
   const MatrixXd fresh = latin_hypercube(count, static_cast<int>(question.factors.size()), seed + of_checks);
-  const double between_runs = map.surrogate.at(0).mode().hyperparameters().extra_sd;
+  const double between_runs = map.surrogate->mode().hyperparameters().extra_sd;
   std::vector<FreshCheck> checks;
   for (Index i = 0; i < fresh.rows(); ++i)
     checks.push_back({from_unit(question.factors, fresh.row(i)), {}, std::nullopt});
@@ -268,21 +268,21 @@ std::vector<AgreementClause> agreements(const FailureQuestion& question, Failure
 Doubts doubts_at_rows(const FailureMapResult& result) {
   Case question;
   std::vector<Eigen::VectorXd> rows;
-  for (const FailureRow& row : result.rows.rows) {
+  for (const FailureRow& row : result.map.rows) {
     rows.push_back(row.values);
-    question.study.conditions.push_back(condition_at(result.map, row.values));
+    question.study.conditions.push_back(condition_at(result.asked, row.values));
   }
   if (rows.empty()) return {};
   const auto height = [](const Eigen::VectorXd& values) { return values[map_lug_height]; };
-  question.scenario = scenario_at(result.map, *std::ranges::max_element(rows, {}, height));
-  for (const ModelKind kind : {result.map.of, result.map.against})
+  question.scenario = scenario_at(result.asked, *std::ranges::max_element(rows, {}, height));
+  for (const ModelKind kind : {result.asked.of, result.asked.against})
     if (kind == ModelKind::bekker_wong)
       question.study.models.push_back({kind, question.scenario.effects, ""});
     else if (kind == ModelKind::rft)
       question.study.models.push_back({kind, {}, ""});
   question.scenario.effects.clear();
   const std::vector<ModelAnswers> study = run_study(question);
-  if (result.map.of == ModelKind::dem || result.map.against == ModelKind::dem)
+  if (result.asked.of == ModelKind::dem || result.asked.against == ModelKind::dem)
     question.study.models.push_back({ModelKind::dem, {}, ""});
   return doubts(question, study);
 }
@@ -291,17 +291,17 @@ Doubts doubts_at_rows(const FailureMapResult& result) {
 
 FailureMapResult learn_map(const InclineMap& map, const MapGrains& grains, const MapLearning& how) {
   FailureMapResult result;
-  result.map = map;
-  result.question = failure_question(result.map, grains, how.tolerance);
-  result.rows = map_failures(result.question, how.runs);
+  result.asked = map;
+  result.question = failure_question(result.asked, grains, how.tolerance);
+  result.map = map_failures(result.question, how.runs);
   if (grains.waits()) return result;
-  result.clauses = agreements(result.question, result.rows, how.rounds);
+  result.clauses = agreements(result.question, result.map, how.rounds);
   if (grains.waits()) return result;
-  result.coordinates = compare_coordinates(result.map, result.rows);
-  result.checks = check_fresh(result.question, result.rows, how.fresh, how.runs.seed);
-  result.lug_gains = lug_gains(result.map, result.question, result.rows);
+  result.coordinates = compare_coordinates(result.asked, result.map);
+  result.checks = check_fresh(result.question, result.map, how.fresh, how.runs.seed);
+  result.lug_gains = lug_gains(result.asked, result.question, result.map);
   result.by_twins = grains.coarser != nullptr;
-  result.shares = shares_of(result.question, result.rows);
+  result.shares = shares_of(result.question, result.map);
   return result;
 }
 

@@ -103,9 +103,9 @@ struct MapShares {
 
 /// A map and what was found with it.
 struct FailureMapResult {
-  InclineMap map;
+  InclineMap asked;
   FailureQuestion question;
-  FailureMap rows;
+  FailureMap map;
   std::vector<AgreementClause> clauses;  ///< where the models agree
   std::vector<Coordinates> coordinates;
   std::vector<FreshCheck> checks;

@@ -226,10 +226,6 @@ void Descent::minimise() {
   }
 }
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 namespace {
 
 /// Index of k_phi, which stiffens the soil; nothing where the campaign takes it as known.

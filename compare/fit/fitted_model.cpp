@@ -131,10 +131,6 @@ std::optional<FittedModel> fitted(const std::shared_ptr<const Dataset>& data, co
   return FittedModel(data, predictor, std::move(*found));
 }
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 namespace {
 
 /// Rows that lie together, and the variable in which they scatter most.

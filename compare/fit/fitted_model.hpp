@@ -11,7 +11,7 @@
 
 namespace soilbin::compare {
 
-/// What the means of pooled runs do not show of all of them (pooled_runs.hpp).
+/// What the means of pooled runs do not show of all of them.
 struct WithinPools {
   double cells = 0.0, chi2 = 0.0;
 };

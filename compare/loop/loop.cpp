@@ -114,11 +114,11 @@ struct Decided {
 
   const Attribution& found() const { return judgement.found; }
   /// The chosen candidate's model where its effects are used, or the base model.
-  const FittedModel& model(bool uses_candidate) const { return uses_candidate ? found().best().model : found().base; }
-  const FittedModel& model() const { return model(judgement.uses_candidate()); }
+  const FittedModel& model(bool with_candidate) const { return with_candidate ? found().best().model : found().base; }
+  const FittedModel& model() const { return model(judgement.may_use_candidate()); }
   /// That model fitted to the data of the base model taken as exact.
   FittedModel exact_model(const FittedModel& base) const {
-    return refitted_as_exact(base, judgement.uses_candidate() ? &model() : nullptr);
+    return refitted_as_exact(base, judgement.may_use_candidate() ? &model() : nullptr);
   }
   /// The noise in whose unit errors are told: beside accepted effects where there are any.
   NoiseFloor noise() const {
@@ -212,7 +212,7 @@ struct Validated {
   NoiseFloor noise;        ///< in whose unit errors are told
   CrossValidation errors;  ///< after: with the effects that are used
   std::vector<LearnedEffect> learned;
-  bool uses_candidate = false;  ///< its effects are accepted, or proxies that predict better
+  bool keeps_candidate = false;  ///< its effects are accepted, or proxies that predict better
 };
 
 Validated validate(const FittedModel& base, const Decided& decision, std::vector<LearnedEffect> learned,
@@ -223,19 +223,19 @@ Validated validate(const FittedModel& base, const Decided& decision, std::vector
     errors = cross_validate(base.data(), noise,
                             {.attribution = of_a_fold(options.attribution),
                              .with_model_discrepancy = decision.second && decision.second->decides,
-                             .takes_named = decision.judgement.uses_candidate(),
+                             .use_candidate = decision.judgement.may_use_candidate(),
                              .learn = !learned.empty(),
                              .folds = options.folds,
                              .threads = options.threads,
                              .progress = progress.folds()});
   const Observations& all = base.data().observations;
   if (!learned.empty() && !predicts_better(errors))
-    learned.clear(), errors = without_learned_effects(std::move(errors), all);
+    learned.clear(), errors = errors_without_learned(std::move(errors), all);
   const Judgement& judgement = decision.judgement;
   const bool refused = judgement.verdict() == Verdict::unknown_effect && is_no_better(errors);
-  const bool uses_candidate = judgement.uses_candidate() && !refused;
-  if (!uses_candidate && learned.empty()) errors = without_effects(std::move(errors), all);
-  return {std::move(noise), std::move(errors), std::move(learned), uses_candidate};
+  const bool keeps_candidate = judgement.may_use_candidate() && !refused;
+  if (!keeps_candidate && learned.empty()) errors = errors_of_base_alone(std::move(errors), all);
+  return {std::move(noise), std::move(errors), std::move(learned), keeps_candidate};
 }
 
 Validated learn_and_validate(const FittedModel& base, const Decided& decision, const LoopOptions& options,
@@ -297,7 +297,7 @@ struct Stages {
 };
 
 /// What the candidates add, and the model that is saved.
-WithCandidates with_candidates(const Stages& made, const FittedModel& saved, const Limits& limits) {
+WithCandidates what_candidates_add(const Stages& made, const FittedModel& saved, const Limits& limits) {
   const Attribution& found = made.decision.found();
   const Validated& validated = made.validated;
   WithCandidates with;
@@ -305,8 +305,8 @@ WithCandidates with_candidates(const Stages& made, const FittedModel& saved, con
     with.ambiguity_set = ambiguity_set(found.candidates);
     with.next = next_run(found, limits);
   }
-  if (validated.uses_candidate) with.dependences_after = dependences_of(found.best().model, 11);
-  if (validated.uses_candidate || !validated.learned.empty())
+  if (validated.keeps_candidate) with.dependences_after = dependences_of(found.best().model, 11);
+  if (validated.keeps_candidate || !validated.learned.empty())
     with.soil_shifts = soil_shifts(saved, validated.learned.empty() ? found.base : made.base);
   return with;
 }
@@ -314,12 +314,11 @@ WithCandidates with_candidates(const Stages& made, const FittedModel& saved, con
 UnknownEffect unknown_effect(Stages& made, WithCandidates with, const AttributionOptions& options) {
   std::optional<SecondAttribution>& second = made.decision.second;
   if (second) second->sets = alternative_sets(made.decision, with.ambiguity_set);
-  UnknownEffect unknown{std::move(with),  made.validated.uses_candidate, {}, std::move(made.validated.learned), {},
-                        std::move(second)};
+  UnknownEffect unknown{std::move(with), {}, std::move(made.validated.learned), {}, std::move(second)};
   if (!unknown.learned.empty()) {
     unknown.proxy_effects = effects_of(unknown.learned.back().candidate);
     unknown.formula = find_formula(made.decision.exact_model(made.base), unknown.learned.front(), options);
-  } else if (unknown.uses_candidate) {
+  } else if (made.validated.keeps_candidate) {
     unknown.proxy_effects = effects_of(made.decision.found().best());
   }
   return unknown;
@@ -329,7 +328,7 @@ LoopAnswer answer_of(Stages made, const AttributionOptions& options, const Limit
   const Attribution& found = made.decision.found();
   const std::vector<LearnedEffect>& learned = made.validated.learned;
   const FittedModel& saved =
-      learned.empty() ? made.decision.model(made.validated.uses_candidate) : learned.back().candidate.model;
+      learned.empty() ? made.decision.model(made.validated.keeps_candidate) : learned.back().candidate.model;
   LoopAnswer answer = answer_on(found.base, made.given, std::move(made.not_testable));
   answer.noise = made.validated.noise;
   answer.soil = saved.soil();
@@ -337,9 +336,9 @@ LoopAnswer answer_of(Stages made, const AttributionOptions& options, const Limit
   answer.validation = std::move(made.validated.errors);
   const Verdict verdict = made.decision.judgement.verdict();
   if (verdict == Verdict::effect_found)
-    answer.outcome = EffectFound{with_candidates(made, saved, limits), accepted_effects(found, options)};
+    answer.outcome = EffectFound{what_candidates_add(made, saved, limits), accepted_effects(found, options)};
   else if (verdict == Verdict::unknown_effect)
-    answer.outcome = unknown_effect(made, with_candidates(made, saved, limits), options);
+    answer.outcome = unknown_effect(made, what_candidates_add(made, saved, limits), options);
   else
     answer.outcome = NothingMissing{};
   answer.judged = std::move(made.decision.judgement);
@@ -383,7 +382,7 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   Validated validated = learn_and_validate(base, decision, options, whole, progress);
   if (is_refuted(decision.judgement, validated.errors)) {
     const Refuted refuted{validated.errors.overall.before, validated.errors.overall.after};
-    decision = decide(without_its_effects(std::move(decision.judgement), refuted), whole);
+    decision = decide(refuted_by(std::move(decision.judgement), refuted), whole);
     validated = learn_and_validate(base, decision, options, whole, progress);
   }
   progress.validation_made();

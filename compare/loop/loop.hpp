@@ -75,7 +75,7 @@ struct WithOutliers {
 };
 
 /// The residual of an unknown effect attributed twice, with a base model that is exact and with one that may be off by
-/// itself (model_discrepancy.hpp).
+/// itself (attribute_with_model_discrepancy).
 struct SecondAttribution {
   bool decides = false;     ///< the base model that may be off explains the data better; else the exact one decides
   double size = 0.0;        ///< DiscrepancyAttribution::size
@@ -102,9 +102,6 @@ struct EffectFound : WithCandidates {
 };
 
 struct UnknownEffect : WithCandidates {
-  /// Whether the effects of the best candidate are among the proxies: conditions left out are predicted better with
-  /// them.
-  bool uses_candidate = false;
   /// The best named effects, where conditions left out are predicted better with them, then the learned ones. They are
   /// in the model that is saved in place of the unknown effect, and explain nothing.
   std::vector<AcceptedEffect> proxy_effects;

@@ -28,7 +28,7 @@ using Inputs = std::vector<std::pair<std::string, std::string>>;
 enum class RunKind {
   usual,
   half_step,  ///< the same on the same bed, at half the time step (step_pair.hpp)
-  coarser     ///< the same with grains coarser_by times as large (coarser_twin.hpp)
+  coarser     ///< the same with grains coarser_by times as large
 };
 inline constexpr std::array run_kinds = {RunKind::usual, RunKind::half_step, RunKind::coarser};
 
@@ -75,7 +75,7 @@ struct Record {
   Inputs inputs;
   std::vector<RecordedRun> runs;
   std::vector<RecordedRun> half_step{};  ///< some of them again, on the same bed at half the time step (step_pair.hpp)
-  std::vector<RecordedRun> coarser{};    ///< some of them again, with coarser grains (coarser_twin.hpp)
+  std::vector<RecordedRun> coarser{};    ///< some of them again, with coarser grains
   bool sealed = true;                    ///< whether a seal vouches for all above the runs
 
   std::vector<RecordedRun>& list(RunKind kind) {

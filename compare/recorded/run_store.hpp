@@ -25,7 +25,7 @@ namespace soilbin::compare {
 
 /// Whether the hardest condition is also to be run at half the time step (step_pair.hpp).
 enum class TestStep { no, yes };
-/// Whether each run is also to be made with coarser grains (coarser_twin.hpp).
+/// Whether each run is also to be made with coarser grains.
 enum class Twins { no, yes };
 
 /// Every condition on every packing, packing by packing, so that a shard needs few beds; in each as conditions compare.

@@ -22,7 +22,6 @@ namespace soilbin::compare {
 
 /// What a page says about itself.
 struct PageAbout {
-  std::string title;
   std::string command;  ///< that made the page
   std::vector<std::pair<std::string, std::string>> versions;
   std::vector<std::string> doubts{};  ///< in what the page says (compare/doubts/doubts.hpp)

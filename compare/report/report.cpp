@@ -74,7 +74,7 @@ class TerminalWriter {
 class PageWriter : public Page {
  public:
   PageWriter(const Report& report, const PageAbout& about)
-      : Page(about.title.empty() ? report.title : about.title, report.subtitle), doubts_(about.doubts) {}
+      : Page(report.title, report.subtitle), doubts_(about.doubts) {}
 
   void tell(const std::vector<ReportPart>& parts) {
     for (const ReportPart& part : parts) {
@@ -336,7 +336,7 @@ std::string page_of(const Report& report, const PageAbout& about) {
 void write_markdown(const std::filesystem::path& folder, const Report& report, const PageAbout& about,
                     bool decimal_comma) {
   MarkdownWriter md(folder, decimal_comma);
-  md.text("# " + plain(about.title.empty() ? report.title : about.title));
+  md.text("# " + plain(report.title));
   if (!report.subtitle.empty()) md.text(plain(report.subtitle));
   md.tell(report.parts);
   if (!about.doubts.empty()) md.text("## Warnings");

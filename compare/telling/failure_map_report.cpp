@@ -97,7 +97,7 @@ const FailureRow* worst_of(const FailureMap& map) {
 std::string rows_sentence(const FailureMapResult& result) {
   const double tolerance = result.question.tolerance;
   std::size_t answered = 0, high = 0, low = 0;
-  for (const FailureRow& row : result.rows.rows) {
+  for (const FailureRow& row : result.map.rows) {
     answered += row.difference.has_value();
     if (row.beyond(tolerance)) ++(row.difference->value > 0 ? high : low);
   }
@@ -107,9 +107,9 @@ std::string rows_sentence(const FailureMapResult& result) {
   std::string text =
       fmt::format("{}: {} of {} conditions run differ by more than {:.3g} % of the load and two standard errors",
                   result.question.name, high + low, answered, 100 * tolerance);
-  if (high + low > 0) text += fmt::format(": {} is {}", pull_of(result.map.of), side);
-  if (answered < result.rows.rows.size()) text += fmt::format("; {} not answered", result.rows.rows.size() - answered);
-  if (const FailureRow* worst = worst_of(result.rows))
+  if (high + low > 0) text += fmt::format(": {} is {}", pull_of(result.asked.of), side);
+  if (answered < result.map.rows.size()) text += fmt::format("; {} not answered", result.map.rows.size() - answered);
+  if (const FailureRow* worst = worst_of(result.map))
     text += fmt::format("; largest error {} % of the load, at {}", in_percent(*worst->difference),
                         factors_in_words(result.question.factors, worst->values));
   return text + ".";
@@ -117,13 +117,13 @@ std::string rows_sentence(const FailureMapResult& result) {
 
 /// How the rows lie about what the map says of each, and about their mean.
 std::string scatter_sentence(const FailureMapResult& result) {
-  const LeaveOneOut& held_out = result.rows.held_out;
+  const LeaveOneOut& held_out = result.map.held_out;
   const auto inside = static_cast<double>((held_out.standardised.array().abs() < 1.96).count());
   double mean = 0, squares = 0, noise = 0, n = 0;
-  for (const FailureRow& row : result.rows.rows)
+  for (const FailureRow& row : result.map.rows)
     if (row.difference) mean += row.difference->value, noise += std::pow(row.difference->std_error, 2), n += 1;
   mean /= n;
-  for (const FailureRow& row : result.rows.rows)
+  for (const FailureRow& row : result.map.rows)
     if (row.difference) squares += std::pow(row.difference->value - mean, 2) / n;
   return fmt::format(
       "{:.0f} % of the rows lie within 1.96 of their stated errors. The rows scatter by {:.1f} % about their mean, a "
@@ -134,7 +134,7 @@ std::string scatter_sentence(const FailureMapResult& result) {
 
 std::string error_sentence(const FailureMapResult& result) {
   return fmt::format("Cross-validated error of the map: {:.1f} % of the load (RMS, each row left out in turn).",
-                     100 * result.rows.held_out.rms());
+                     100 * result.map.held_out.rms());
 }
 
 std::string coordinates_sentence(const FailureMapResult& result) {
@@ -188,14 +188,14 @@ std::string checks_sentence(const FailureMapResult& result) {
 
 /// By how much the grains' own pull is off for their size, and how well that is known; "" without grains.
 std::string grains_sentence(const FailureMapResult& result) {
-  if (result.map.of != ModelKind::dem && result.map.against != ModelKind::dem) return "";
-  if (result.rows.resolution_error.empty())
+  if (result.asked.of != ModelKind::dem && result.asked.against != ModelKind::dem) return "";
+  if (!result.map.resolution_error)
     return "Error of resolution of the grains: not known; the verdicts are about these grains, and not about sand.";
   double squares = 0.0, variance = 0.0, known = 0.0, answered = 0.0;
-  for (const FailureRow& row : result.rows.rows) {
+  for (const FailureRow& row : result.map.rows) {
     answered += row.difference.has_value();
     if (!row.resolution_error) continue;
-    const Estimate error = result.rows.resolution_error[0].predict(to_unit(result.question.factors, row.values));
+    const Estimate error = result.map.resolution_error->predict(to_unit(result.question.factors, row.values));
     squares += std::pow(error.value, 2), variance += std::pow(error.std_error, 2), known += 1;
   }
   return fmt::format(
@@ -210,15 +210,15 @@ constexpr int map_cells = 7;  // of a heat map, along and up
 
 HeatCell cell_at(const FailureMapResult& result, const VectorXd& values) {
   const std::vector<Factor>& factors = result.question.factors;
-  const Estimate there = result.rows.at(result.question, values);
-  const Judged judged = result.rows.judged(result.question, values);
+  const Estimate there = result.map.at(result.question, values);
+  const Judged judged = result.map.judged(result.question, values);
   const double percent = std::round(100 * there.value);
   HeatCell cell{100 * there.value, percent == 0 ? "0" : fmt::format("{:+.0f}", percent), "", judged == Judged::differ};
   if (judged == Judged::undecided) cell.text += "?";
   cell.meaning = fmt::format("{}: {} % of the load", factors_in_words(factors, values), in_percent(there));
-  if (!result.rows.resolution_error.empty())
+  if (result.map.resolution_error.has_value())
     cell.meaning +=
-        fmt::format(", from infinitely fine grains {} %", in_percent(result.rows.at_fine(result.question, values)));
+        fmt::format(", from infinitely fine grains {} %", in_percent(result.map.at_fine(result.question, values)));
   cell.meaning += ", " + judged_in_words(judged);
   return cell;
 }
@@ -231,7 +231,7 @@ HeatMap heat_map_of(const FailureMapResult& result, double lug_height, double sl
   HeatMap map;
   map.title = fmt::format("{} {}, {} {}", factors[map_lug_height].name, with_unit(factors[map_lug_height], lug_height),
                           factors[map_slip].name, with_unit(factors[map_slip], slip));
-  map.subtitle = less_in_words(result.map) + " [% of the load]";
+  map.subtitle = less_in_words(result.asked) + " [% of the load]";
   map.x_title = heading(load.name, load.unit), map.y_title = heading(angle.name, angle.unit);
   map.limit = 300 * result.question.tolerance;
   for (int c = 0; c < map_cells; ++c)
@@ -283,7 +283,7 @@ SlidingMap sliding_map_of(const FailureMapResult& result) {
     }
     return values;
   };
-  const double own_lugs = result.map.scenario.tire.lugs.height;
+  const double own_lugs = result.asked.scenario.tire.lugs.height;
   const std::vector<double> heights = settings(factors[map_lug_height], lugs, own_lugs),
                             at_slips = settings(factors[map_slip], slips, usual_slip);
   for (const double height : heights)
@@ -300,7 +300,7 @@ std::string without_a_box(const FailureMapResult& result) {
   return fmt::format(
       "Cell by cell: {} is within {:.3g} % of the load {} with 95 % confidence in {:.0f} % of the range, but in no box "
       "of conditions that holds one that was run. The map on the page (--report) shows where.",
-      pull_of(result.map.of), tolerance, from_that_of(result.map.against), 100 * result.shares.agree);
+      pull_of(result.asked.of), tolerance, from_that_of(result.asked.against), 100 * result.shares.agree);
 }
 
 std::string decided_sentence(const FailureMapResult& result) {
@@ -340,8 +340,8 @@ std::vector<std::pair<std::string, std::string>> trust_in_words(const FailureMap
   parts.emplace_back("Trust it", result.clauses.empty()
                                      ? without_a_box(result)
                                      : fmt::format("{} is within {:.3g} % of the load {} with 95 % confidence {}",
-                                                   capital(pull_of(result.map.of)), tolerance,
-                                                   from_that_of(result.map.against), boxes));
+                                                   capital(pull_of(result.asked.of)), tolerance,
+                                                   from_that_of(result.asked.against), boxes));
   if (!grains.empty()) parts.back().second += " " + grains;
   const double beyond = 100 * result.shares.beyond;
   parts.emplace_back(
@@ -357,13 +357,13 @@ std::vector<std::pair<std::string, std::string>> trust_in_words(const FailureMap
 
 /// The answer in two lines, above the map.
 std::string in_short(const FailureMapResult& result) {
-  const Tire& tire = result.map.scenario.tire;
+  const Tire& tire = result.asked.scenario.tire;
   const double tolerance = 100 * result.question.tolerance;
   return fmt::format(
       "{} is within {:.3g} % of the load {} in {:.0f} % of the range by the best estimate. {} Set the sliders to your "
       "lugs and slip{}.",
-      capital(pull_of(result.map.of)), tolerance, from_that_of(result.map.against), 100 * (1 - result.shares.beyond),
-      decided_sentence(result),
+      capital(pull_of(result.asked.of)), tolerance, from_that_of(result.asked.against),
+      100 * (1 - result.shares.beyond), decided_sentence(result),
       tire.lugs.height > 0.0
           ? fmt::format(" (they start at those of {}, {:.3g} mm)", tire.name, 1000 * tire.lugs.height)
           : "");
@@ -377,18 +377,18 @@ std::vector<std::string> details(const FailureMapResult& result) {
 }
 
 Table rows_table(const FailureMapResult& result) {
-  Table table{fmt::format("Every condition run, in order: {}, share of the load", less_in_words(result.map)), {}};
-  const bool twins = !result.rows.resolution_error.empty();
+  Table table{fmt::format("Every condition run, in order: {}, share of the load", less_in_words(result.asked)), {}};
+  const bool twins = result.map.resolution_error.has_value();
   for (const Factor& factor : result.question.factors) table.header.push_back(heading(factor.name, factor.unit));
   table.header.insert(table.header.end(), {"difference [%]", "cross-validated [%]", "beyond"});
   if (twins) table.header.insert(table.header.end(), {"error of resolution [%]", "by the map"});
   Index k = 0;
-  for (const FailureRow& row : result.rows.rows) {
+  for (const FailureRow& row : result.map.rows) {
     std::vector<TableCell> cells;
     for (std::size_t j = 0; j < result.question.factors.size(); ++j)
       cells.push_back(number(row.values[j] * per_unit(result.question.factors[j].unit)));
     if (row.difference) {
-      const double predicted = row.difference->value - result.rows.held_out.residual[k];
+      const double predicted = row.difference->value - result.map.held_out.residual[k];
       cells.insert(cells.end(), {in_percent(*row.difference), fmt::format("{:.1f}", 100 * predicted),
                                  row.beyond(result.question.tolerance) ? "yes" : "no"});
       ++k;
@@ -397,7 +397,7 @@ Table rows_table(const FailureMapResult& result) {
     }
     if (twins)
       cells.insert(cells.end(), {row.resolution_error ? in_percent(*row.resolution_error) : "-",
-                                 judged_in_words(result.rows.judged(result.question, row.values))});
+                                 judged_in_words(result.map.judged(result.question, row.values))});
     table.add(std::move(cells));
   }
   return table;
@@ -416,8 +416,8 @@ Table lugs_table(const FailureMapResult& result) {
                           lugs.lower > 0 ? with_unit(lugs, lugs.lower) : "none"),
               {}};
   for (const int j : {map_load, map_angle, map_slip}) table.header.push_back(heading(factors[j].name, factors[j].unit));
-  table.header.insert(table.header.end(), {model_in_words(std::string(word_of(result.map.of))),
-                                           model_in_words(std::string(word_of(result.map.against)))});
+  table.header.insert(table.header.end(), {model_in_words(std::string(word_of(result.asked.of))),
+                                           model_in_words(std::string(word_of(result.asked.against)))});
   for (const LugGain& gain : result.lug_gains) {
     std::vector<TableCell> cells;
     for (const int j : {map_load, map_angle, map_slip})
@@ -448,10 +448,10 @@ Json failure_map_json(const FailureMapResult& result) {
   const std::vector<Factor>& factors = result.question.factors;
   const MapShares& shares = result.shares;
   Json document = {
-      {"format", "soilbin-failure-map/1"},      {"incline", name_of(result.map.incline)},
+      {"format", "soilbin-failure-map/1"},      {"incline", name_of(result.asked.incline)},
       {"tolerance", result.question.tolerance}, {"summary", map_summary(result)},
-      {"share_beyond", shares.beyond},          {"cross_validated_error", finite(result.rows.held_out.rms())}};
-  document["of"] = word_of(result.map.of), document["against"] = word_of(result.map.against);
+      {"share_beyond", shares.beyond},          {"cross_validated_error", finite(result.map.held_out.rms())}};
+  document["of"] = word_of(result.asked.of), document["against"] = word_of(result.asked.against);
   document["shares"] = {{"agree", shares.agree}, {"differ", shares.differ}, {"undecided", shares.undecided}};
   document["lug_gains"] = list_of(result.lug_gains, [&](const LugGain& gain) {
     Json json = values_json(factors, gain.values);
@@ -461,11 +461,11 @@ Json failure_map_json(const FailureMapResult& result) {
   document["factors"] = list_of(factors, [](const Factor& factor) {
     return Json{{"name", factor.name}, {"lower", factor.lower}, {"upper", factor.upper}};
   });
-  document["rows"] = list_of(result.rows.rows, [&](const FailureRow& row) {
+  document["rows"] = list_of(result.map.rows, [&](const FailureRow& row) {
     Json json = values_json(factors, row.values);
     json["difference"] = or_null(row.difference), json["beyond"] = row.beyond(result.question.tolerance);
     json["resolution_error"] = or_null(row.resolution_error);
-    json["judged"] = word_of(result.rows.judged(result.question, row.values));
+    json["judged"] = word_of(result.map.judged(result.question, row.values));
     return json;
   });
   document["coordinates"] = list_of(result.coordinates, [](const Coordinates& c) {
@@ -497,8 +497,8 @@ Report report_on(const FailureMapResult& result, const FailureMapAbout& about) {
     return std::string(kind == ModelKind::bekker_wong ? "the " : "") + model_in_words(std::string(word_of(kind)));
   };
   Report report{"Where may I trust the quick estimate?",
-                fmt::format("{}: {} against {}, {} on {}", about.name, the(result.map.of), the(result.map.against),
-                            result.map.scenario.tire.name, in_words(result.map.scenario.soil))};
+                fmt::format("{}: {} against {}, {} on {}", about.name, the(result.asked.of), the(result.asked.against),
+                            result.asked.scenario.tire.name, in_words(result.asked.scenario.soil))};
   const std::string grains = grains_sentence(result);
   std::vector<std::string> first = {in_short(result)};
   if (!grains.empty()) first.push_back(grains);
@@ -509,7 +509,7 @@ Report report_on(const FailureMapResult& result, const FailureMapAbout& about) {
            fmt::format("Drawbar pull, {}, in per cent of the load, as the map has it; loads across, angles up. Blue: "
                        "{} is too low; orange: too high. Bold: the models differ by more than the tolerance; faint: "
                        "they agree; with a question mark: not decided.",
-                       less_in_words(result.map), pull_of(result.map.of)))},
+                       less_in_words(result.asked), pull_of(result.asked.of)))},
        .told = Told::on_pages,
        .section = "The map",
        .anchor = "map",
@@ -524,7 +524,7 @@ Report report_on(const FailureMapResult& result, const FailureMapAbout& about) {
   report.add(WarningsHere());
   report.add(Fold{"The map at its corners, side by side", [&result] { return corners(result); }});
   report.add("What it rests on", Prose{}, Told::on_pages, "rows");
-  report.add(Fold{fmt::format("All {} conditions run", result.rows.rows.size()),
+  report.add(Fold{fmt::format("All {} conditions run", result.map.rows.size()),
                   [&result] { return std::vector<ReportPart>{{rows_table(result)}}; }});
   if (!result.lug_gains.empty())
     report.add(Fold{"What lugs bring", [&result] { return std::vector<ReportPart>{{lugs_table(result)}}; }});

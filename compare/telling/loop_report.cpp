@@ -413,8 +413,10 @@ LoopParts signature_parts(const LoopAnswer& answer, const Variables& variables) 
 LoopParts noise_parts(const LoopAnswer& answer) {
   LoopParts parts{{noise_table(answer)}};
   if (answer.validation.overall.cells > 0 && answer.uses_effects())
-    parts.push_back({Prose{{fmt::format("The cross-validated squared error falls by {} ± {} noise variances a value.",
-                                        number(answer.validation.gain), number(answer.validation.gain_error))}}});
+    parts.push_back(
+        {Prose{{fmt::format("The cross-validated squared error {} by {} ± {} noise variances a value.",
+                            answer.validation.gain < 0 ? "rises" : "falls", number(std::abs(answer.validation.gain)),
+                            number(answer.validation.gain_error))}}});
   return parts;
 }
 

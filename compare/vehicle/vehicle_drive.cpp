@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bekker_wong/gsl.hpp"
+#include "bekker_wong/transient/cvodes.hpp"
 #include "compare/vehicle/steady_vehicle.hpp"
 #include "scenario/soil.hpp"
 
@@ -130,7 +131,6 @@ class VehicleRide {
       record_.samples.push_back(sample(record_.end_time));
       if (progress) progress(record_.end_time, duration);
     }
-    record_.effort = integrator_->effort();
     tell_what_gave_out();
     return std::move(record_);
   }

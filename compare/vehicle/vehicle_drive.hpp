@@ -53,7 +53,6 @@ struct VehicleDriveRecord {
   std::optional<std::size_t> gave_out{};  ///< of one that is stuck or has rolled back the axle whose wheels give least
                                           ///< for their load, of a buried one the axle that is
   bool at_motors_limit = false;           ///< at the end a motor gives no more
-  sundials::Effort effort{};
 };
 
 /// Drives a vehicle as its `drive` says. Of the two wheels of an axle one is followed: the vehicle is alike on both

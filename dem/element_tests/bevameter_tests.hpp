@@ -67,7 +67,7 @@ struct ConeSettings {
 struct ConeRun {
   PlateRun pressed;     ///< from where its base is level with the surface; the pressure is over the base's area
   double index = 0;     ///< mean cone index from the surface to the depth [Pa]
-  double gradient = 0;  ///< of the line from the surface on that has this mean [Pa/m]
+  double gradient = 0;  ///< of the straight line through these resistances, by least squares [Pa/m]
 };
 
 /// Throws InputError for a cone narrower than narrowest_tool and for one whose tip would come closer to the bed's floor

@@ -83,8 +83,14 @@ ConeRun cone_penetration(const GranularSoil& soil, const ConeSettings& settings,
   ConeRun run{press(*bed, simulation_on(*bed, how, settings.friction), pressing, work)};
   std::vector<PlateSample>& curve = run.pressed.curve;
   std::erase_if(curve, [](const PlateSample& sample) { return sample.sinkage < 0; });
-  for (const PlateSample& sample : curve) run.index += sample.pressure / static_cast<double>(curve.size());
-  run.gradient = run.index / (settings.depth * diameter / 2);
+  const double samples = static_cast<double>(curve.size());
+  double depth = 0, moment = 0, square = 0;
+  for (const PlateSample& sample : curve) run.index += sample.pressure / samples, depth += sample.sinkage / samples;
+  for (const PlateSample& sample : curve) {
+    const double below = sample.sinkage - depth;
+    moment += below * sample.pressure, square += below * below;
+  }
+  run.gradient = moment / square;
   return run;
 }
 

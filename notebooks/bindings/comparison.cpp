@@ -93,7 +93,7 @@ Comparison compare_case(const Case& question, const std::vector<EffectName>& eff
       sides.push_back(compare::side_of(answers));
   if (!runs.empty()) sides.push_back(compare::side_of("dem", runs, question.study.conditions));
   if (measured != nullptr) sides.push_back(compare::side_of(*measured, question));
-  return compare::compare_sides(question, analytic.study.models, std::move(sides));
+  return compare::compare_sides(question, std::move(sides));
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ class Pair : public testing::Test {
   ModelAnswers base = base_answers(question);
 
   Comparison against(const std::vector<double>& offsets, double own) const {
-    return compare_sides(question, {base.choice}, {grain_side(base, offsets, own), side_of(base)});
+    return compare_sides(question, {grain_side(base, offsets, own), side_of(base)});
   }
 };
 
@@ -124,7 +124,7 @@ TEST_F(Pair, TwoAnalyticModelsShareTheSoilsDoubt) {
   ModelAnswers other = base;
   other.choice.label = "other";
   for (Answer& answer : other.answers) answer.result->drawbar_pull.value += 50;
-  const Comparison comparison = compare_sides(question, {base.choice, other.choice}, {side_of(base), side_of(other)});
+  const Comparison comparison = compare_sides(question, {side_of(base), side_of(other)});
   ASSERT_FALSE(comparison.differences.empty());
   for (const Difference& d : comparison.differences) {
     EXPECT_EQ(d.finding, DifferenceFinding::not_judged);
@@ -143,8 +143,8 @@ TEST_F(Pair, AFlexibleTireAgainstRigidGrainsIsSaidAndNeverTheHeadline) {
   ModelAnswers flexible = base;
   flexible.choice.effects = {{"tire_flexibility", "", {}}}, flexible.choice.label = "flexible";
   for (Answer& answer : flexible.answers) answer.result->drawbar_pull.value += 400;
-  const Comparison comparison = compare_sides(question, {base.choice, flexible.choice},
-                                              {side_of(base), side_of(flexible), grain_side(base, {100}, 40.0)});
+  const Comparison comparison =
+      compare_sides(question, {side_of(base), side_of(flexible), grain_side(base, {100}, 40.0)});
   const std::string unlike = "The tires differ";
   const std::optional<Clause> first = headline(comparison);
   ASSERT_TRUE(first);
@@ -154,8 +154,7 @@ TEST_F(Pair, AFlexibleTireAgainstRigidGrainsIsSaidAndNeverTheHeadline) {
     said += clause.text.find("flexible less grains: ") != std::string::npos &&
             clause.text.find(unlike) != std::string::npos;
   EXPECT_EQ(said, 3U) << "at each of its channels";
-  const Comparison alone =
-      compare_sides(question, {flexible.choice}, {side_of(flexible), grain_side(base, {100}, 40.0)});
+  const Comparison alone = compare_sides(question, {side_of(flexible), grain_side(base, {100}, 40.0)});
   EXPECT_THAT(headline(alone)->text, HasSubstr(unlike));
 }
 
@@ -350,7 +349,7 @@ TEST_F(Pair, WithoutAStatedErrorThereIsNoJointTestAndTheSummarySaysWhy) {
   Side dem = of_known_scatter(grain_side(base, {10}, 5.0));
   dem.points[2].result->torque.std_error = 0.0;
   EXPECT_FALSE(joint_test(dem, question, {}).test);
-  const Comparison comparison = compare_sides(question, {base.choice}, {side_of(base), dem});
+  const Comparison comparison = compare_sides(question, {side_of(base), dem});
   ASSERT_EQ(comparison.not_compared.size(), 1U);
   EXPECT_EQ(comparison.not_compared.front().what, NotCompared::What::no_joint_test);
   EXPECT_THAT(summary(comparison).back().text,
@@ -402,7 +401,7 @@ TEST_F(Pair, PartsThatLeaveMoreThanTheirBoundAreADoubtOfThePoint) {
   EXPECT_THAT(side.points[2].doubts, Contains(test::tells(DoubtKind::budget_rest, {-30, 12})));
   EXPECT_FALSE(tell_of(side.points[3].doubts, DoubtKind::budget_rest));
   // It is told beside the parts, and no part: each side's parts and the rest are its pull.
-  const Comparison comparison = compare_sides(question, {base.choice}, {side_of(base), side});
+  const Comparison comparison = compare_sides(question, {side_of(base), side});
   const Table table = budget_table(comparison, 2);
   EXPECT_EQ(budget_at(comparison, 2).rows.size() + 2, table.rows.size());
   EXPECT_EQ(table.rows[table.rows.size() - 2].back().text, "-30.00 (12.00)");
@@ -433,7 +432,7 @@ TEST_F(Pair, AConditionWithoutResultIsToldAndTheOthersStillCompared) {
   auto runs = grain_runs(base, {300}, 40.0);
   runs.erase(runs.begin() + 1);
   const Comparison comparison =
-      compare_sides(question, {base.choice}, {side_of(base), side_of("dem", runs, question.study.conditions)});
+      compare_sides(question, {side_of(base), side_of("dem", runs, question.study.conditions)});
   EXPECT_EQ(comparison.tallies.front().values, 3U);
   ASSERT_FALSE(comparison.not_compared.empty());
   const NotCompared& missing = comparison.not_compared.back();

@@ -172,12 +172,12 @@ class SlowInclineMap : public testing::Test {
   };
   static FailureMapResult learn(const InclineMap& map, const VirtualTest& grains, ExperimentStore& store) {
     FailureMapResult result;
-    result.map = map;
+    result.asked = map;
     result.question = failure_question(map, {&grains, nullptr, &store}, 0.1);
-    result.rows = map_failures(result.question, {.first = 16, .at_boundary = 6});
-    result.coordinates = compare_coordinates(map, result.rows);
-    result.checks = check_fresh(result.question, result.rows, 4, 1);
-    result.shares = shares_of(result.question, result.rows);
+    result.map = map_failures(result.question, {.first = 16, .at_boundary = 6});
+    result.coordinates = compare_coordinates(map, result.map);
+    result.checks = check_fresh(result.question, result.map, 4, 1);
+    result.shares = shares_of(result.question, result.map);
     return result;
   }
   static const Learnt& learnt() {
@@ -203,7 +203,7 @@ class SlowInclineMap : public testing::Test {
 
 TEST_F(SlowInclineMap, LearnsTheFormulaAndPredictsFreshConditions) {
   const FailureMapResult& result = learnt().result;
-  EXPECT_LT(result.rows.held_out.rms(), 0.01);
+  EXPECT_LT(result.map.held_out.rms(), 0.01);
   ASSERT_EQ(result.checks.size(), 4U);
   EXPECT_LT(rms_of(result.checks), 0.01);
   for (const FreshCheck& check : result.checks)
@@ -217,7 +217,7 @@ TEST_F(SlowInclineMap, LearnsTheFormulaAndPredictsFreshConditions) {
 // The stand-in's lugs of 20 mm pull 16 % of the load more than none; the smooth analytic wheel has none of it.
 TEST_F(SlowInclineMap, TellsWhatLugsBring) {
   const FailureMapResult& result = learnt().result;
-  const std::vector<LugGain> gains = lug_gains(result.map, result.question, result.rows);
+  const std::vector<LugGain> gains = lug_gains(result.asked, result.question, result.map);
   ASSERT_EQ(gains.size(), 18U);
   for (const LugGain& gain : gains) {
     EXPECT_NEAR(gain.of, 0.0, 1e-12);
@@ -245,9 +245,9 @@ TEST_F(SlowInclineMap, TellsItInWordsAsAPageAndAsJson) {
   const Report report = report_on(result, {"Map", "format: ..."});
   const Json json = report.data();
   EXPECT_EQ(json["format"], "soilbin-failure-map/1");
-  EXPECT_EQ(json["rows"].size(), result.rows.rows.size());
+  EXPECT_EQ(json["rows"].size(), result.map.rows.size());
   EXPECT_EQ(json["checks"].size(), 4U);
-  EXPECT_NEAR(json["cross_validated_error"].get<double>(), result.rows.held_out.rms(), 1e-15);
+  EXPECT_NEAR(json["cross_validated_error"].get<double>(), result.map.held_out.rms(), 1e-15);
   EXPECT_THAT(json["summary"][0].get<std::string>(),
               AllOf(StartsWith("longitudinal incline: "), HasSubstr("conditions run differ by more than"),
                     HasSubstr("too low at all of them")));

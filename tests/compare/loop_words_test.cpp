@@ -273,18 +273,18 @@ TEST(Judgement, UsesACandidateThatStandsUnlessTheReasonSaysNo) {
   Judgement judged = std::get<Judgement>(two_sets().judged);
   judged.reason = StandsOut{};
   EXPECT_EQ(judged.verdict(), Verdict::effect_found);
-  EXPECT_FALSE(judged.uses_candidate()) << "there is none";
+  EXPECT_FALSE(judged.may_use_candidate()) << "there is none";
   judged.choice.emplace().stands = true;
-  EXPECT_TRUE(judged.uses_candidate());
+  EXPECT_TRUE(judged.may_use_candidate());
   judged.reason = MoreThanNamed{};
   EXPECT_EQ(judged.verdict(), Verdict::unknown_effect);
-  EXPECT_TRUE(judged.uses_candidate());
+  EXPECT_TRUE(judged.may_use_candidate());
   for (const Reason& refused : {Reason(NoneAccepted{}), Reason(Refuted{}), Reason(NoneStandsOut{})}) {
     judged.reason = refused;
-    EXPECT_FALSE(judged.uses_candidate());
+    EXPECT_FALSE(judged.may_use_candidate());
   }
   judged.choice->stands = false, judged.reason = MoreThanNamed{};
-  EXPECT_FALSE(judged.uses_candidate());
+  EXPECT_FALSE(judged.may_use_candidate());
 }
 
 // A set's forms stand in the order of its ids, whichever was fitted first.
