@@ -72,9 +72,9 @@ std::vector<Target> targets_of(const ContactTestFlags& asked, const std::vector<
   return targets;
 }
 
-std::vector<Factor> factors_of(const ContactTestFlags& asked, ContactKind kind) {
+std::vector<Factor> factors_of(const ContactTestFlags& asked, ContactKind kind, const GranularSoil& soil) {
   std::vector<Factor> factors =
-      asked.curves.empty() ? compare::usual_factors(kind) : compare::usual_factors_of_curves();
+      asked.curves.empty() ? compare::usual_factors(kind, soil) : compare::usual_factors_of_curves();
   std::vector<std::string> names;
   for (const Factor& factor : factors) names.push_back(factor.name);
   for (const std::string& text : asked.bounds) {
@@ -110,7 +110,7 @@ Soil ContactTestFlags::soil_with_grains(const Workplace& place) const {
 
 compare::VirtualTest ContactTestFlags::test(const Soil& of, std::function<void(const dem::Progress&)> progress) const {
   compare::ContactQuestion question;
-  question.kind = kind(), question.factors = factors_of(*this, question.kind);
+  question.kind = kind(), question.factors = factors_of(*this, question.kind, grains_of(of));
   if (curves.empty()) {
     question.targets = targets_of(*this, question.kind, of);
   } else {

@@ -163,9 +163,10 @@ void check_runs(const Case& question, const dem::DemSettings& settings, Twins tw
 }
 
 void refuse_other_grains(const Record& record, const Scenario& scenario, const std::filesystem::path& file) {
-  refuse_other_inputs(record, inputs_of({}, scenario), file,
-                      {"tire.", "soil.", "bed.radius", "bed.density", "bed.young", "bed.poisson", "bed.restitution",
-                       "bed.sliding", "bed.rolling", "bed.laws", "bed.twisting"});
+  refuse_other_inputs(
+      record, inputs_of({}, scenario), file,
+      {"tire.", "soil.", "bed.radius", "bed.density", "bed.young", "bed.poisson", "bed.restitution", "bed.sliding",
+       "bed.rolling", "bed.laws", "bed.twisting", "bed.cohesion", "bed.work_of_adhesion"});
 }
 
 std::string relative_density_of(const std::vector<RecordedRun>& runs, const Soil& soil,

@@ -112,6 +112,7 @@ std::string recipe_text(const BedRecipe& recipe) {
   if (soil.shape != GrainShape::sphere)
     add("shape", static_cast<int>(soil.shape)), add("sphere_spacing", soil.sphere_spacing);
   if (soil.grain_grain.cohesion > 0) add("cohesion", soil.grain_grain.cohesion);  // keys of beds without it stay
+  if (soil.grain_grain.work_of_adhesion > 0) add("work_of_adhesion", soil.grain_grain.work_of_adhesion);
   add("length", recipe.size.length), add("width", recipe.size.width), add("depth", recipe.size.depth);
   text += fmt::format("packing {}\n", recipe.packing);
   if (const Grading& graded = recipe.grading; graded.factor > 1) {

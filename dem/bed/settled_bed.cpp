@@ -83,7 +83,11 @@ class BedRun {
 
 }  // namespace
 
-void require_spheres(const GranularSoil& soil) {
+void refuse_beyond_lammps(const GranularSoil& soil) {
+  if (soil.cohesion_law == GrainCohesion::jkr)
+    throw InputError(
+        "LAMMPS is given grains with linear cohesion or none, not jkr: it lists no pairs that adhere beyond their "
+        "contact\n  hint: soilbin's own engine, or cohesion_law: linear");
   if (soil.shape != GrainShape::sphere)
     throw InputError(
         "LAMMPS is given spheres alone, not grains of several\n  hint: soilbin's own engine, or shape: sphere");
@@ -146,7 +150,7 @@ void check(const BedRecipe& recipe) {
         fmt::format("a time step of {:.3g} s is too short to get anywhere: these grains usually take {:.3g} s\n"
                     "  hint: {:.3g} s or more",
                     recipe.dt, usual, least_share * usual));
-  if (recipe.settled_by == SettledBy::lammps) require_spheres(recipe.soil);
+  if (recipe.settled_by == SettledBy::lammps) refuse_beyond_lammps(recipe.soil);
   if (!(recipe.gravity > 0)) throw InputError("a bed settles under gravity: it must be above 0");
   check_pace(recipe.soil, recipe.gravity, usual);
   const bool in_lammps = recipe.settled_by == SettledBy::lammps;
@@ -252,13 +256,17 @@ Interaction interaction_of(const ContactPair& pair) {
   out.sliding_friction = pair.sliding_friction;
   out.rolling_friction = pair.rolling_friction;
   out.rolling_damping = pair.rolling_damping;
-  out.cohesion = pair.cohesion;
+  out.cohesion = pair.work_of_adhesion > 0 ? pair.work_of_adhesion : pair.cohesion;
   out.rolling_stiffness = pair.rolling_stiffness;
   return out;
 }
 
 ContactLaws with_cohesion_of(const ContactPair& pair, ContactLaws laws) {
-  if (pair.cohesion > 0 && laws.cohesion == CohesionLaw::none) laws.cohesion = CohesionLaw::linear;
+  if (laws.cohesion != CohesionLaw::none) return laws;
+  if (pair.work_of_adhesion > 0)
+    laws.cohesion = CohesionLaw::jkr;
+  else if (pair.cohesion > 0)
+    laws.cohesion = CohesionLaw::linear;
   return laws;
 }
 

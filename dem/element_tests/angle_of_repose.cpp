@@ -72,7 +72,7 @@ class Heap {
 Setup Heap::setup_for(const WorkOptions& how) const {
   Setup setup = loose_setup(soil_, settings_.dt, 40 * (settings_.radius + settings_.height) * d_, how);
   add_wall_material(setup, soil_, settings_.floor_friction);
-  setup.laws = settings_.laws;
+  setup.laws = with_cohesion_of(soil_.grain_grain, settings_.laws);
   return setup;
 }
 

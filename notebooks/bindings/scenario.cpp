@@ -77,6 +77,7 @@ void bind_tire_and_soil(py::module_& module) {
   described(pair);
   bind_words<RollingResistance>(module, "RollingResistance", "How grains resist rolling (docs/theory/dem-laws.md).");
   bind_words<TwistingResistance>(module, "TwistingResistance", "How grains resist twisting (docs/theory/dem-laws.md).");
+  bind_words<GrainCohesion>(module, "GrainCohesion", "How grains pull each other together (docs/theory/dem-laws.md).");
   bind_words<GrainShape>(module, "GrainShape", "What a grain is made of: a sphere, or several joined for good.");
   py::class_<GranularSoil> granular(module, "GranularSoil", "A soil as grains, radii uniform between two bounds.");
   described(granular);

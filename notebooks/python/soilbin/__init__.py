@@ -32,6 +32,7 @@ from soilbin._soilbin import (
     EffectForm,
     Estimate,
     ForceFrame,
+    GrainCohesion,
     GranularSoil,
     InputError,
     Lugs,
@@ -80,7 +81,7 @@ from soilbin.vehicles import drive_vehicle, vehicle_on_soil, wheels_frame
 
 __all__ = [
     "Bin", "Case", "ConeIndex", "ContactPair", "Controller", "Drive", "DriveLine", "EffectChoice", "EffectForm", "Estimate", "ForceFrame",
-    "GranularSoil", "InputError", "LugPattern", "Lugs", "Model", "ModelKind", "NoSolution", "OperatingCondition",
+    "GrainCohesion", "GranularSoil", "InputError", "LugPattern", "Lugs", "Model", "ModelKind", "NoSolution", "OperatingCondition",
     "ResistiveForce", "ResistiveForceSoil", "RollingResistance", "RunStopped", "Scenario", "SemiEmpiricalSoil", "Shelf", "SlipBy", "Soil", "SoilbinWarning",
     "Tire", "TractionResult", "Vehicle", "VehicleAxle", "VehicleCondition", "VehicleDrive", "VehicleHitch",
     "VehiclePoint", "VehicleStop", "Waypoint", "__version__", "at_density",
