@@ -204,10 +204,21 @@ void describe(Visitor& v, std::type_identity<ContactPair>) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, std::type_identity<GrainFraction>) {
+  v.number("radius", &GrainFraction::radius, Measure{"mm", above_zero}, Need::required,
+           "of its grains; of a sieve fraction half the geometric mean of its two openings");
+  v.number("share", &GrainFraction::share, Measure{"%", {.lower = 0.0, .upper = 1.0, .lower_open = true}},
+           Need::required, "of the mass of all grains");
+}
+
+template <class Visitor>
 void describe(Visitor& v, std::type_identity<GranularSoil>) {
   using G = GranularSoil;
-  v.number("radius_min", &G::radius_min, Measure{"mm", above_zero}, Need::required, "smallest grain radius");
-  v.number("radius_max", &G::radius_max, Measure{"mm", above_zero}, Need::required, "largest grain radius");
+  v.number("radius_min", &G::radius_min, Measure{"mm", above_zero}, Need::optional,
+           "smallest grain radius; needed where there are no sizes");
+  v.number("radius_max", &G::radius_max, Measure{"mm", above_zero}, Need::optional,
+           "largest grain radius; needed where there are no sizes");
+  v.list("sizes", &G::sizes, Need::optional, "in place of both radii: fractions of one size each, smallest first");
   v.number("grain_density", &G::grain_density, Measure{"kg/m^3", above_zero}, Need::required,
            "density of a grain, not of the bed");
   v.number("gravity", &G::gravity, Measure{"m/s^2", above_zero}, Need::optional, gravity_meaning);
@@ -229,12 +240,18 @@ void describe(Visitor& v, std::type_identity<GranularSoil>) {
   v.group("grain_tire", &G::grain_tire, Need::required, "contact of a grain and the tire");
 }
 
+/// Sets the radii that follow from `sizes`.
+void fill_in(GranularSoil& soil, const std::function<bool(const char*)>& given);
+
+/// grain_sizes.hpp
+std::string wrong_in_sizes(const GranularSoil& soil);
+
 /// Each law of cohesion has a value of its own, in a unit of its own; "" where they go together.
 std::string wrong_in_cohesion(const GranularSoil& soil);
 
 inline std::string contradiction(const GranularSoil& soil) {
   if (const std::string wrong = wrong_in_cohesion(soil); !wrong.empty()) return wrong;
-  if (soil.radius_max < soil.radius_min) return "radius_max is smaller than radius_min";
+  if (const std::string wrong = wrong_in_sizes(soil); !wrong.empty()) return wrong;
   const bool stiff = soil.grain_grain.rolling_stiffness > 0 || soil.grain_tire.rolling_stiffness > 0;
   if (stiff != (soil.rolling_resistance == RollingResistance::torsion_spring))
     return "rolling_stiffness and rolling_resistance torsion_spring belong together";

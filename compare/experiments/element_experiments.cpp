@@ -47,6 +47,7 @@ class Identity {
     const VectorXd none = VectorXd::Zero(static_cast<Eigen::Index>(experiment.factors.size()));
     const GranularSoil soil = with_values(experiment, kind, none);
     add("radius_min", soil.radius_min).add("radius_max", soil.radius_max).add("density", soil.grain_density);
+    for (const GrainFraction& fraction : soil.sizes) add("size", fraction.radius).add("share", fraction.share);
     if (soil.shape != GrainShape::sphere)
       add("shape", static_cast<int>(soil.shape)).add("sphere_spacing", soil.sphere_spacing);
     add("young", soil.youngs_modulus).add("poisson", soil.poisson_ratio).add("grain_grain", soil.grain_grain);

@@ -106,6 +106,11 @@ std::string recipe_text(const BedRecipe& recipe) {
   const auto add = [&](const char* name, double value) { text += fmt::format("{} {}\n", name, value); };
   const GranularSoil& soil = recipe.soil;
   add("radius_min", soil.radius_min), add("radius_max", soil.radius_max);
+  if (!soil.sizes.empty()) {  // keys of beds without them stay
+    text += "sizes";
+    for (const GrainFraction& fraction : soil.sizes) text += fmt::format(" {} {}", fraction.radius, fraction.share);
+    text += "\n";
+  }
   add("density", soil.grain_density), add("young", soil.youngs_modulus), add("poisson", soil.poisson_ratio);
   add("restitution", soil.grain_grain.restitution);
   add("sliding", soil.grain_grain.sliding_friction), add("rolling", soil.grain_grain.rolling_friction);

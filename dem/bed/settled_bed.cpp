@@ -10,6 +10,7 @@
 #include "dem/bed/settling.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
+#include "scenario/grain_sizes.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -98,6 +99,7 @@ double steps_a_fall(const GranularSoil& soil, double gravity, double step) {
 }
 
 void check_pace(const GranularSoil& soil, double gravity, double step) {
+  if (const std::string wrong = soil.sizes.empty() ? "" : wrong_in_sizes(soil); !wrong.empty()) throw InputError(wrong);
   constexpr double most_sizes = 50, least_poisson = -0.9;
   if (soil.radius_max > most_sizes * soil.radius_min)
     throw InputError(fmt::format(
@@ -196,7 +198,8 @@ Body bin_of(const BedSize& size, bool periodic) {
 }
 
 void pour(const BedRecipe& recipe, const GrainSink& put) {
-  recipe.grading.factor > 1 ? pour_graded(recipe, put) : pour_evenly(recipe, put);
+  const bool graded = recipe.grading.factor > 1 || recipe.soil.sizes.size() > 1;
+  graded ? pour_graded(recipe, put) : pour_evenly(recipe, put);
 }
 
 double Grading::scale(const BedSize& bed, double y, double z) const {
@@ -224,9 +227,7 @@ Grading grading_for(const Tire& tire, const GranularSoil& soil, double factor) {
 }
 
 double expected_grains(const BedRecipe& recipe) {
-  const double a = recipe.soil.radius_min, b = recipe.soil.radius_max;
-  const double mean_cube = (a + b) * (a * a + b * b) / 4;  // of a uniform radius
-  return volume_of_grains(recipe) / (4.0 / 3 * std::numbers::pi * mean_cube) *
+  return volume_of_grains(recipe) / (4.0 / 3 * std::numbers::pi * mean_cube(recipe.soil)) *
          recipe.grading.share_of_grains(recipe.size);
 }
 

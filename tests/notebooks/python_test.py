@@ -621,6 +621,32 @@ class Stops(RuntimeError):
     """Raised by a progress in these tests."""
 
 
+class GrainsOfASoil(unittest.TestCase):
+    CONTACT = soilbin.ContactPair(restitution=0.5, sliding_friction=0.5, rolling_friction=0.1)
+    STICKY = soilbin.ContactPair(restitution=0.5, sliding_friction=0.5, rolling_friction=0.1, work_of_adhesion=20)
+
+    def made(self, **more):
+        return soilbin.GranularSoil(**{"grain_density": 2650, "youngs_modulus": 5e7, "poisson_ratio": 0.25,
+                                       "grain_grain": self.CONTACT, "grain_tire": self.CONTACT, **more})
+
+    def test_sizes_stand_in_place_of_radii(self):
+        sizes = [soilbin.GrainFraction(radius=radius, share=share) for radius, share in ((0.001, 0.4), (0.002, 0.6))]
+        grains = self.made(sizes=sizes)
+        self.assertEqual((grains.radius_min, grains.radius_max), (0.001, 0.002))
+        self.assertIn("sizes:", soilbin.write_soil(soilbin.Soil(name="sand", granular=grains)))
+        for wrong in ({}, {"radius_min": 0.001}, {"sizes": sizes, "radius_max": 0.003}, {"sizes": sizes[:1]}):
+            with self.assertRaises(soilbin.InputError, msg=str(wrong)):
+                self.made(**wrong)
+
+    def test_jkr_goes_with_a_work_of_adhesion(self):
+        radii = {"radius_min": 0.001, "radius_max": 0.002}
+        grains = self.made(cohesion_law=soilbin.GrainCohesion.jkr, grain_grain=self.STICKY, **radii)
+        self.assertEqual(grains.grain_grain.work_of_adhesion, 20)
+        for wrong in ({"grain_grain": self.STICKY}, {"cohesion_law": soilbin.GrainCohesion.jkr}):
+            with self.assertRaisesRegex(soilbin.InputError, "cohesion_law"):
+                self.made(**wrong, **radii)
+
+
 class LongWork(unittest.TestCase):
     def box(self, progress):
         sand = soilbin.find_soil("paper-sand").granular

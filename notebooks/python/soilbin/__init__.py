@@ -33,6 +33,7 @@ from soilbin._soilbin import (
     Estimate,
     ForceFrame,
     GrainCohesion,
+    GrainFraction,
     GranularSoil,
     InputError,
     Lugs,
@@ -81,7 +82,7 @@ from soilbin.vehicles import drive_vehicle, vehicle_on_soil, wheels_frame
 
 __all__ = [
     "Bin", "Case", "ConeIndex", "ContactPair", "Controller", "Drive", "DriveLine", "EffectChoice", "EffectForm", "Estimate", "ForceFrame",
-    "GrainCohesion", "GranularSoil", "InputError", "LugPattern", "Lugs", "Model", "ModelKind", "NoSolution", "OperatingCondition",
+    "GrainCohesion", "GrainFraction", "GranularSoil", "InputError", "LugPattern", "Lugs", "Model", "ModelKind", "NoSolution", "OperatingCondition",
     "ResistiveForce", "ResistiveForceSoil", "RollingResistance", "RunStopped", "Scenario", "SemiEmpiricalSoil", "Shelf", "SlipBy", "Soil", "SoilbinWarning",
     "Tire", "TractionResult", "Vehicle", "VehicleAxle", "VehicleCondition", "VehicleDrive", "VehicleHitch",
     "VehiclePoint", "VehicleStop", "Waypoint", "__version__", "at_density",
