@@ -77,6 +77,7 @@ from soilbin._soilbin import (
     write_tire,
 )
 from soilbin.exports import export_fmi, export_gazebo, export_scm, export_table
+from soilbin.other_codes import soil_from_liggghts
 from soilbin.questions import SoilbinWarning, conditions, estimate, names, run_study, sweep
 from soilbin.vehicles import drive_vehicle, vehicle_on_soil, wheels_frame
 
@@ -88,6 +89,6 @@ __all__ = [
     "VehiclePoint", "VehicleStop", "Waypoint", "__version__", "at_density",
     "bekker_wong", "cases_folders", "compare", "conditions", "dem",
     "doubts", "drive_vehicle", "effect_catalogue", "estimate", "export_fmi", "export_gazebo", "export_scm", "export_table", "find_case",
-    "find_soil", "find_tire", "find_vehicle", "in_words", "names", "parse_case", "parse_vehicle", "run_study", "sweep",
+    "find_soil", "find_tire", "find_vehicle", "in_words", "names", "parse_case", "parse_vehicle", "run_study", "soil_from_liggghts", "sweep",
     "vehicle_on_soil", "wheels_frame", "write_soil", "write_tire",
 ]
