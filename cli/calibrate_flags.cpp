@@ -72,10 +72,10 @@ std::vector<Target> targets_of(const ContactTestFlags& asked, const std::vector<
   return targets;
 }
 
-std::vector<Factor> factors_of(const ContactTestFlags& asked, ContactKind kind,
+std::vector<Factor> factors_of(const ContactTestFlags& asked, ContactKind kind, const GranularSoil& soil,
                                const std::vector<compare::CompressionCurve>& curves) {
   std::vector<Factor> factors =
-      curves.empty() ? compare::usual_factors(kind) : compare::usual_factors_of_curves(curves);
+      curves.empty() ? compare::usual_factors(kind, soil) : compare::usual_factors_of_curves(curves);
   std::vector<std::string> names;
   for (const Factor& factor : factors) names.push_back(factor.name);
   for (const std::string& text : asked.bounds) {
@@ -118,7 +118,7 @@ compare::VirtualTest ContactTestFlags::test(const Soil& of, std::function<void(c
     question.curves = measured.read();
     question.targets = targets_of(*this, question.curves);
   }
-  question.factors = factors_of(*this, question.kind, question.curves);
+  question.factors = factors_of(*this, question.kind, grains_of(of), question.curves);
   question.packings = packings, question.across = across;
   question.settling_friction = read_settling_friction(settling_friction, question.settling_friction);
   question.stresses.clear();

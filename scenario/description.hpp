@@ -11,7 +11,8 @@
 //   visitor.group   (key, member, need, meaning)             a struct with a description of its own, or an optional one
 //   visitor.list    (key, member, need, meaning)             a std::vector of such structs
 //   visitor.part    (key, member, need, meaning)             an optional soil: a mapping, a name of the library, a path
-// `member` is a pointer to a data member. contradiction(T) names what is wrong between members, "" for nothing.
+// `member` is a pointer to a data member. contradiction(T) names what is wrong between members, with a line
+// "  hint: ..." behind it or without; "" for nothing.
 #pragma once
 
 #include <array>
@@ -66,6 +67,10 @@ constexpr std::array<Word<RollingResistance>, 4> words_of(std::type_identity<Rol
 
 constexpr std::array<Word<TwistingResistance>, 2> words_of(std::type_identity<TwistingResistance>) {
   return {{{"none", TwistingResistance::none}, {"marshall", TwistingResistance::marshall}}};
+}
+
+constexpr std::array<Word<GrainCohesion>, 2> words_of(std::type_identity<GrainCohesion>) {
+  return {{{"linear", GrainCohesion::linear}, {"jkr", GrainCohesion::jkr}}};
 }
 
 constexpr std::array<Word<GrainShape>, 4> words_of(std::type_identity<GrainShape>) {
@@ -194,13 +199,26 @@ void describe(Visitor& v, std::type_identity<ContactPair>) {
            "energy density of linear cohesion: attraction over the contact's area; 0: none");
   v.number("rolling_stiffness", &ContactPair::rolling_stiffness, Measure{"N m", zero_or_more}, Need::optional,
            "couple a radian of rolling; of torsion_spring alone");
+  v.number("work_of_adhesion", &ContactPair::work_of_adhesion, Measure{"J/m^2", zero_or_more}, Need::optional,
+           "w of cohesion_law jkr, which pulls two grains apart with (3/2) pi w R* at most; 0: none");
+}
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<GrainFraction>) {
+  v.number("radius", &GrainFraction::radius, Measure{"mm", above_zero}, Need::required,
+           "of its grains; of a sieve fraction half the geometric mean of its two openings");
+  v.number("share", &GrainFraction::share, Measure{"%", {.lower = 0.0, .upper = 1.0, .lower_open = true}},
+           Need::required, "of the mass of all grains");
 }
 
 template <class Visitor>
 void describe(Visitor& v, std::type_identity<GranularSoil>) {
   using G = GranularSoil;
-  v.number("radius_min", &G::radius_min, Measure{"mm", above_zero}, Need::required, "smallest grain radius");
-  v.number("radius_max", &G::radius_max, Measure{"mm", above_zero}, Need::required, "largest grain radius");
+  v.number("radius_min", &G::radius_min, Measure{"mm", above_zero}, Need::optional,
+           "smallest grain radius; needed where there are no sizes");
+  v.number("radius_max", &G::radius_max, Measure{"mm", above_zero}, Need::optional,
+           "largest grain radius; needed where there are no sizes");
+  v.list("sizes", &G::sizes, Need::optional, "in place of both radii: fractions of one size each, smallest first");
   v.number("grain_density", &G::grain_density, Measure{"kg/m^3", above_zero}, Need::required,
            "density of a grain, not of the bed");
   v.number("gravity", &G::gravity, Measure{"m/s^2", above_zero}, Need::optional, gravity_meaning);
@@ -211,6 +229,8 @@ void describe(Visitor& v, std::type_identity<GranularSoil>) {
            "how grains resist rolling; directional: the answer depends on the time step");
   v.choice("twisting_resistance", &G::twisting_resistance, Need::optional,
            "how grains resist spin about the normal of their contact");
+  v.choice("cohesion_law", &G::cohesion_law, Need::optional,
+           "how grains pull each other together: linear by 'cohesion' of a contact, jkr by its 'work_of_adhesion'");
   v.choice("shape", &G::shape, Need::optional,
            "what a grain is made of: a sphere, or several joined in a row, a triangle, a tetrahedron; radii are then "
            "those of the sphere of its volume");
@@ -220,8 +240,18 @@ void describe(Visitor& v, std::type_identity<GranularSoil>) {
   v.group("grain_tire", &G::grain_tire, Need::required, "contact of a grain and the tire");
 }
 
+/// Sets the radii that follow from `sizes`.
+void fill_in(GranularSoil& soil, const std::function<bool(const char*)>& given);
+
+/// grain_sizes.hpp
+std::string wrong_in_sizes(const GranularSoil& soil);
+
+/// Each law of cohesion has a value of its own, in a unit of its own; "" where they go together.
+std::string wrong_in_cohesion(const GranularSoil& soil);
+
 inline std::string contradiction(const GranularSoil& soil) {
-  if (soil.radius_max < soil.radius_min) return "radius_max is smaller than radius_min";
+  if (const std::string wrong = wrong_in_cohesion(soil); !wrong.empty()) return wrong;
+  if (const std::string wrong = wrong_in_sizes(soil); !wrong.empty()) return wrong;
   const bool stiff = soil.grain_grain.rolling_stiffness > 0 || soil.grain_tire.rolling_stiffness > 0;
   if (stiff != (soil.rolling_resistance == RollingResistance::torsion_spring))
     return "rolling_stiffness and rolling_resistance torsion_spring belong together";

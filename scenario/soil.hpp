@@ -72,6 +72,7 @@ struct ContactPair {
   double rolling_damping = 0.3;   ///< share of critical, 0 .. 1; read by elastic_plastic alone. 0.3: chosen
   double cohesion = 0.0;         ///< energy density of linear cohesion [J/m^3], >= 0; 0: none (docs/theory/dem-laws.md)
   double rolling_stiffness = 0;  ///< [N m/rad], >= 0; read by torsion_spring alone
+  double work_of_adhesion = 0;   ///< w of jkr cohesion [J/m^2], >= 0; 0: none. Pull-off: (3/2) pi w R*
 };
 
 /// How grains resist rolling (docs/theory/dem-laws.md).
@@ -80,14 +81,24 @@ enum class RollingResistance { elastic_plastic, directional, directional_with_tw
 /// How grains resist twisting, spin about the normal of their contact (docs/theory/dem-laws.md).
 enum class TwistingResistance { none, marshall };
 
+/// How grains pull each other together (docs/theory/dem-laws.md): over the contact's area by an energy density, or as
+/// Johnson, Kendall and Roberts by a work of adhesion.
+enum class GrainCohesion { linear, jkr };
+
 /// What a grain is made of: a sphere, or a few equal ones joined for good, in a row, a triangle, a tetrahedron.
 enum class GrainShape { sphere, two_spheres, three_spheres, four_spheres };
 
 constexpr int spheres_of(GrainShape shape) { return static_cast<int>(shape) + 1; }
 
+/// Grains of one size among others: what one sieve of an analysis retains.
+struct GrainFraction {
+  double radius = 0.0;  ///< [m]; of a sieve fraction half the geometric mean of its two openings
+  double share = 0.0;   ///< of the mass of all grains, 0 .. 1
+};
+
 /// A soil as grains, for the discrete element model.
 struct GranularSoil {
-  double radius_min = 0.0;          ///< [m] radii are uniform between radius_min and radius_max
+  double radius_min = 0.0;          ///< [m] radii are uniform between radius_min and radius_max, or those of `sizes`
   double radius_max = 0.0;          ///< [m]; of a grain of several spheres, that of the sphere of its volume
   double grain_density = 0.0;       ///< [kg/m^3]
   std::optional<double> gravity{};  ///< that pulls on the grains [m/s^2]; absent: Earth's
@@ -95,15 +106,17 @@ struct GranularSoil {
   double poisson_ratio = 0.25;      ///< [-], -1 .. 0.5
   RollingResistance rolling_resistance = RollingResistance::elastic_plastic;
   TwistingResistance twisting_resistance = TwistingResistance::none;
+  GrainCohesion cohesion_law = GrainCohesion::linear;  ///< jkr goes with a work_of_adhesion, linear with none
   GrainShape shape = GrainShape::sphere;
-  double sphere_spacing = 1;  ///< between the centres of a grain's spheres, in their radii [-], 0.1 .. 2
+  std::vector<GrainFraction> sizes{};  ///< smallest first (grain_sizes.hpp); none: uniform radii
+  double sphere_spacing = 1;           ///< between the centres of a grain's spheres, in their radii [-], 0.1 .. 2
   ContactPair grain_grain;
   ContactPair grain_tire;
   std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "grain_tire.restitution"
 };
 
-/// Mean diameter of a soil's grains [m].
-inline double mean_diameter(const GranularSoil& soil) { return soil.radius_min + soil.radius_max; }
+/// Mean diameter of a soil's grains [m]: of uniform radii by number, of `sizes` by mass.
+double mean_diameter(const GranularSoil& soil);
 
 /// A soil as resistive force theory knows it: resistive_force/response.hpp.
 struct ResistiveForceSoil {

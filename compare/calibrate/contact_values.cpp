@@ -18,6 +18,7 @@ double& value_of(ContactPair& pair, const std::string& name) {
   if (name == "sliding_friction") return pair.sliding_friction;
   if (name == "rolling_friction") return pair.rolling_friction;
   if (name == "cohesion") return pair.cohesion;
+  if (name == "work_of_adhesion") return pair.work_of_adhesion;
   throw std::invalid_argument("a contact has no number '" + name + "'");
 }
 

@@ -153,8 +153,8 @@ constexpr DoubtSentence sentences[] = {
     D(unusual_sliding_friction, "sliding_friction of {} = {:.4g} is above 1.5: rock on rock has 0.4 .. 1"),
     D(wide_grain_radii, "radius_max is {:.2g} times radius_min, more than 5: the smallest grains set the time step and "
       "the number of grains, the largest the size of the bed, so runs take very long"),
-    D(cohesion_presses_grains, "the cohesion of grain_grain, {:.6g} kJ/m^3, alone pulls these grains into each other "
-      "by {:overlap}: Hertz's law holds for small overlaps; less than {:.3g} kJ/m^3 keeps it below {:.0f} %"),
+    D(cohesion_presses_grains, "the {} of grain_grain, {:.6g} {}, alone pulls these grains into each other by "
+      "{:overlap}: Hertz's law holds for small overlaps; less than {:.3g} {} keeps it below {:.0f} %"),
     D(rolling_depends_on_step, "with the rolling law '{}' answers depend on the time step: below the angular speed "
       "mu_r R* F_N dt/I* a contact is a dashpot of I*/dt, whatever mu_r. At the longest step, {:.3g} ms, two mean "
       "grains that 100 N press together are so below {:.2g} rad/s. At a quarter of the step a tire of 0.5 m radius at "

@@ -86,13 +86,32 @@ double overlap_by_cohesion(const GranularSoil& grains) {
   return 0.5 * root * root;
 }
 
+/// The overlap at which jkr's adhesion and elasticity balance between two mean grains, a^2/(3 R*) with a^3 =
+/// (9/2) pi w R*^2/E* (Johnson, Kendall and Roberts 1971), over the radius.
+double overlap_by_adhesion(const GranularSoil& grains) {
+  const double r = mean_diameter(grains) / 2.0, reduced = r / 2.0;
+  const double cube =
+      4.5 * std::numbers::pi * grains.grain_grain.work_of_adhesion * reduced * reduced / reduced_modulus(grains);
+  return std::pow(cube, 2.0 / 3.0) / (3.0 * reduced) / r;
+}
+
+Doubts adhesion_doubts(const GranularSoil& grains) {
+  const double overlap = overlap_by_adhesion(grains), work = grains.grain_grain.work_of_adhesion;
+  if (!(overlap > deep_overlap)) return {};
+  const double holds = work * std::pow(deep_overlap / overlap, 1.5);
+  return {Doubt{DoubtKind::cohesion_presses_grains,
+                {"work_of_adhesion", work, "J/m^2", overlap, holds, "J/m^2", 100 * deep_overlap}}};
+}
+
 Doubts cohesion_doubts(const GranularSoil& grains) {
   if (!(grains.youngs_modulus > 0.0)) return {};
+  if (grains.cohesion_law == GrainCohesion::jkr) return adhesion_doubts(grains);
   const double overlap = overlap_by_cohesion(grains);
   if (!(overlap > deep_overlap)) return {};
   const double holds = reduced_modulus(grains) * std::sqrt(2.0 * deep_overlap) / (0.75 * std::numbers::pi);
-  return {Doubt{DoubtKind::cohesion_presses_grains,
-                {grains.grain_grain.cohesion / 1e3, overlap, holds / 1e3, 100 * deep_overlap}}};
+  return {Doubt{
+      DoubtKind::cohesion_presses_grains,
+      {"cohesion", grains.grain_grain.cohesion / 1e3, "kJ/m^3", overlap, holds / 1e3, "kJ/m^3", 100 * deep_overlap}}};
 }
 
 /// The largest pressure under the wheel: over its width and the contact of the answers, at least a grain long; where

@@ -32,7 +32,8 @@ class Identity {
   Identity& add(const char* name, const ContactPair& pair) {
     add(name, pair.restitution).add("", pair.sliding_friction).add("", pair.rolling_friction).add("", pair.cohesion);
     add("rolling_damping", pair.rolling_damping);
-    return pair.rolling_stiffness > 0 ? add("rolling_stiffness", pair.rolling_stiffness) : *this;
+    if (pair.rolling_stiffness > 0) add("rolling_stiffness", pair.rolling_stiffness);
+    return pair.work_of_adhesion > 0 ? add("work_of_adhesion", pair.work_of_adhesion) : *this;
   }
   Identity& add(const dem::ContactLaws& laws) {
     return add("laws", static_cast<int>(laws.normal))
@@ -46,6 +47,7 @@ class Identity {
     const VectorXd none = VectorXd::Zero(static_cast<Eigen::Index>(experiment.factors.size()));
     const GranularSoil soil = with_values(experiment, kind, none);
     add("radius_min", soil.radius_min).add("radius_max", soil.radius_max).add("density", soil.grain_density);
+    for (const GrainFraction& fraction : soil.sizes) add("size", fraction.radius).add("share", fraction.share);
     if (soil.shape != GrainShape::sphere)
       add("shape", static_cast<int>(soil.shape)).add("sphere_spacing", soil.sphere_spacing);
     add("young", soil.youngs_modulus).add("poisson", soil.poisson_ratio).add("grain_grain", soil.grain_grain);
@@ -291,6 +293,16 @@ std::vector<Factor> usual_factors(ContactKind kind) {
   if (kind == ContactKind::grain_tire)
     return {{"restitution", 0.3, 0.7, "-"}, {"sliding_friction", 0.3, 0.9, "-"}, {"rolling_friction", 0.1, 0.7, "-"}};
   return {{"sliding_friction", 0.1, 0.9, "-"}, {"rolling_friction", 0.0, 0.5, "-"}, {"cohesion", 0.0, 1e6, "kJ/m^3"}};
+}
+
+std::vector<Factor> usual_factors(ContactKind kind, const GranularSoil& soil) {
+  std::vector<Factor> factors = usual_factors(kind);
+  // A contact of mean grains then bears (3/2) pi w R* = 1.2 w d at most, so a layer of them some 1.2 w/d (chosen).
+  constexpr double most_strength = 10e3;  // [Pa]
+  if (soil.cohesion_law == GrainCohesion::jkr)
+    for (Factor& factor : factors)
+      if (factor.name == "cohesion") factor = {"work_of_adhesion", 0.0, most_strength * mean_diameter(soil), "J/m^2"};
+  return factors;
 }
 
 std::vector<Factor> usual_factors_of_curves(const std::vector<CompressionCurve>& tests) {

@@ -61,6 +61,8 @@ std::vector<Target> targets_of(const Soil& soil, ContactKind kind);
 std::vector<std::string> target_names(ContactKind kind);
 std::string unit_of_target(const std::string& name);
 std::vector<Factor> usual_factors(ContactKind kind);
+/// With a soil's own law of cohesion: under jkr the work of adhesion in place of the energy density.
+std::vector<Factor> usual_factors(ContactKind kind, const GranularSoil& soil);
 /// What is varied against measured curves: sliding and rolling friction, youngs_modulus, and how the specimens settle:
 /// settling_friction or, of tests of several densities (by_density), settling_friction.TX13 of each, by its first test.
 std::vector<Factor> usual_factors_of_curves(const std::vector<CompressionCurve>& tests);

@@ -15,6 +15,7 @@
 #include "dem/rig/run_inputs.hpp"
 #include "dem/rig/staged_run.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/grain_sizes.hpp"
 #include "scenario/quantity.hpp"
 
 namespace soilbin::compare {
@@ -122,8 +123,7 @@ RecordedRun obtain(const RunSpec& spec, const Scenario& scenario, RunStore& stor
 }
 
 Scenario with_coarser_grains(Scenario scenario) {
-  if (scenario.soil.granular)
-    scenario.soil.granular->radius_min *= coarser_by, scenario.soil.granular->radius_max *= coarser_by;
+  if (scenario.soil.granular) scale_sizes(*scenario.soil.granular, coarser_by);
   return scenario;
 }
 
@@ -163,9 +163,10 @@ void check_runs(const Case& question, const dem::DemSettings& settings, Twins tw
 }
 
 void refuse_other_grains(const Record& record, const Scenario& scenario, const std::filesystem::path& file) {
-  refuse_other_inputs(record, inputs_of({}, scenario), file,
-                      {"tire.", "soil.", "bed.radius", "bed.density", "bed.young", "bed.poisson", "bed.restitution",
-                       "bed.sliding", "bed.rolling", "bed.laws", "bed.twisting"});
+  refuse_other_inputs(
+      record, inputs_of({}, scenario), file,
+      {"tire.", "soil.", "bed.radius", "bed.sizes", "bed.density", "bed.young", "bed.poisson", "bed.restitution",
+       "bed.sliding", "bed.rolling", "bed.laws", "bed.twisting", "bed.cohesion", "bed.work_of_adhesion"});
 }
 
 std::string relative_density_of(const std::vector<RecordedRun>& runs, const Soil& soil,

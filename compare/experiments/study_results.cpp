@@ -106,7 +106,7 @@ void choose_models(Study& study, std::optional<ModelKind> only, bool recorded) {
 }
 
 void name_lammps(Case& question) {
-  if (question.scenario.soil.granular) dem::require_spheres(*question.scenario.soil.granular);
+  if (question.scenario.soil.granular) dem::refuse_beyond_lammps(*question.scenario.soil.granular);
   for (ModelChoice& choice : question.study.models)
     if (choice.model == ModelKind::dem) choice.label = dem::lammps_model_name;
 }

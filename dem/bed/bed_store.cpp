@@ -106,12 +106,18 @@ std::string recipe_text(const BedRecipe& recipe) {
   const auto add = [&](const char* name, double value) { text += fmt::format("{} {}\n", name, value); };
   const GranularSoil& soil = recipe.soil;
   add("radius_min", soil.radius_min), add("radius_max", soil.radius_max);
+  if (!soil.sizes.empty()) {  // keys of beds without them stay
+    text += "sizes";
+    for (const GrainFraction& fraction : soil.sizes) text += fmt::format(" {} {}", fraction.radius, fraction.share);
+    text += "\n";
+  }
   add("density", soil.grain_density), add("young", soil.youngs_modulus), add("poisson", soil.poisson_ratio);
   add("restitution", soil.grain_grain.restitution);
   add("sliding", soil.grain_grain.sliding_friction), add("rolling", soil.grain_grain.rolling_friction);
   if (soil.shape != GrainShape::sphere)
     add("shape", static_cast<int>(soil.shape)), add("sphere_spacing", soil.sphere_spacing);
   if (soil.grain_grain.cohesion > 0) add("cohesion", soil.grain_grain.cohesion);  // keys of beds without it stay
+  if (soil.grain_grain.work_of_adhesion > 0) add("work_of_adhesion", soil.grain_grain.work_of_adhesion);
   add("length", recipe.size.length), add("width", recipe.size.width), add("depth", recipe.size.depth);
   text += fmt::format("packing {}\n", recipe.packing);
   if (const Grading& graded = recipe.grading; graded.factor > 1) {

@@ -56,13 +56,15 @@ std::optional<ClumpShape> shape_of(const GranularSoil& soil) {
 GrainProportions proportions_of(const GranularSoil& soil) { return measured_against_spheres(shape_of(soil)); }
 
 GrainMaker::GrainMaker(const GranularSoil& soil, std::uint64_t seed)
-    : radii_{soil.radius_min, soil.radius_max},
+    : radii_{soil.radius_min, soil.radius_max, soil.sizes.size() > 1 ? soil.sizes : std::vector<GrainFraction>()},
       shape_(shape_of(soil)),
       proportions_(measured_against_spheres(shape_)),
       random_(seed ^ 0x74726e73) {}  // a sequence of its own: places and radii are those of spheres
 
 RadiusRange GrainMaker::balls() const {
-  return {proportions_.ball * radii_.smallest, proportions_.ball * radii_.largest};
+  RadiusRange balls{proportions_.ball * radii_.smallest, proportions_.ball * radii_.largest, radii_.fractions};
+  for (GrainFraction& fraction : balls.fractions) fraction.radius *= proportions_.ball;
+  return balls;
 }
 
 void GrainMaker::put(Simulation& simulation, const Vec3& centre, double ball) {

@@ -6,7 +6,6 @@
 #include <array>
 #include <vector>
 
-#include "dem/bed/random.hpp"
 #include "dem/surface/mass_properties.hpp"
 #include "scenario/errors.hpp"
 
@@ -24,6 +23,17 @@ std::array<int, 3> places(const Region& region, const RadiusRange& radii) {
 }
 
 }  // namespace
+
+double RadiusRange::drawn(Random& random) const {
+  if (fractions.empty()) return random.uniform(smallest, largest);
+  double all = 0;
+  const auto number = [](const GrainFraction& of) { return of.share / (of.radius * of.radius * of.radius); };
+  for (const GrainFraction& fraction : fractions) all += number(fraction);
+  double left = random.uniform(0, all);
+  for (const GrainFraction& fraction : fractions)
+    if ((left -= number(fraction)) < 0) return fraction.radius;
+  return fractions.back().radius;
+}
 
 int room_for(const Region& region, const RadiusRange& radii) {
   const auto [nx, ny, nz] = places(region, radii);
@@ -43,7 +53,7 @@ void insert_loosely(const GrainSink& put, const Region& region, const RadiusRang
   const Vec3 width{side.x / nx, side.y / ny, place_width * 2 * radii.largest};
   for (int k = 0; k < count; ++k) {
     const int ix = k % nx, iy = k / nx % ny, iz = k / (nx * ny);
-    const double radius = random.uniform(radii.smallest, radii.largest);
+    const double radius = radii.drawn(random);
     const auto at = [&](double lower, double cell, int index) {
       const double slack = cell / 2 - radius;
       return lower + (index + 0.5) * cell + random.uniform(-slack, slack);
@@ -71,10 +81,18 @@ void insert_graded(const GrainSink& put, const Region& region, const GradedGrain
     return in[(static_cast<std::size_t>(z) * cells[1] + y) * cells[0] + x];
   };
   Random random(seed);
-  double placed = 0;
+  double placed = 0, until = 0;
   int refused = 0;
   constexpr int most_refused = 100000;  // in a row
-  const auto drawn = [&] { return random.uniform(grains.radii.smallest, grains.radii.largest); };
+  const std::vector<GrainFraction>& fractions = grains.radii.fractions;
+  double shares = 0;
+  for (const GrainFraction& fraction : fractions) shares += fraction.share;
+  std::size_t to_come = fractions.size();
+  const auto drawn = [&] {
+    if (fractions.empty()) return grains.radii.drawn(random);
+    while (placed >= until && to_come > 0) until += grains.volume * fractions[--to_come].share / shares;
+    return fractions[to_come].radius;
+  };
   // Kept until it has found its place: drawn anew at each try, small ones would find more places than large ones.
   double unscaled = drawn();
   while (placed < grains.volume) {

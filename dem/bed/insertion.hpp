@@ -3,14 +3,21 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
+#include "dem/bed/random.hpp"
 #include "dem/engine/simulation.hpp"
+#include "scenario/soil.hpp"
 
 namespace soilbin::dem {
 
-/// Radii uniform between two bounds [m], 0 < smallest <= largest.
+/// Radii uniform between two bounds [m], 0 < smallest <= largest; or those of two fractions and more, smallest first.
 struct RadiusRange {
   double smallest, largest;
+  std::vector<GrainFraction> fractions{};
+
+  /// The radius of a grain taken at random [m]: of fractions by their numbers, which go as share/radius^3.
+  double drawn(Random& random) const;
 };
 
 /// A cuboid that grains are put into, whole.
@@ -41,8 +48,9 @@ struct GradedGrains {
 };
 
 /// Fills a region at random with graded grains, equally loose everywhere, whatever their sizes; radii over scale are
-/// uniform as without grading. For a share of a quarter of the region and less. Clears no grains that are there
-/// already. Throws InputError where they don't find room.
+/// uniform as without grading. Fractions go in one after the other, the largest first, since it would find no place
+/// among fine grains; each with its share of the volume, to a grain. For a share of a quarter of the region and less.
+/// Clears no grains that are there already. Throws InputError where they don't find room.
 void insert_graded(const GrainSink& put, const Region& region, const GradedGrains& grains, std::uint64_t seed);
 
 /// How many grains insert_loosely can put into a region.

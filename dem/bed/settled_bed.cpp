@@ -10,6 +10,7 @@
 #include "dem/bed/settling.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
+#include "scenario/grain_sizes.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -83,7 +84,11 @@ class BedRun {
 
 }  // namespace
 
-void require_spheres(const GranularSoil& soil) {
+void refuse_beyond_lammps(const GranularSoil& soil) {
+  if (soil.cohesion_law == GrainCohesion::jkr)
+    throw InputError(
+        "LAMMPS is given grains with linear cohesion or none, not jkr: it lists no pairs that adhere beyond their "
+        "contact\n  hint: soilbin's own engine, or cohesion_law: linear");
   if (soil.shape != GrainShape::sphere)
     throw InputError(
         "LAMMPS is given spheres alone, not grains of several\n  hint: soilbin's own engine, or shape: sphere");
@@ -94,6 +99,7 @@ double steps_a_fall(const GranularSoil& soil, double gravity, double step) {
 }
 
 void check_pace(const GranularSoil& soil, double gravity, double step) {
+  if (const std::string wrong = soil.sizes.empty() ? "" : wrong_in_sizes(soil); !wrong.empty()) throw InputError(wrong);
   constexpr double most_sizes = 50, least_poisson = -0.9;
   if (soil.radius_max > most_sizes * soil.radius_min)
     throw InputError(fmt::format(
@@ -146,7 +152,7 @@ void check(const BedRecipe& recipe) {
         fmt::format("a time step of {:.3g} s is too short to get anywhere: these grains usually take {:.3g} s\n"
                     "  hint: {:.3g} s or more",
                     recipe.dt, usual, least_share * usual));
-  if (recipe.settled_by == SettledBy::lammps) require_spheres(recipe.soil);
+  if (recipe.settled_by == SettledBy::lammps) refuse_beyond_lammps(recipe.soil);
   if (!(recipe.gravity > 0)) throw InputError("a bed settles under gravity: it must be above 0");
   check_pace(recipe.soil, recipe.gravity, usual);
   const bool in_lammps = recipe.settled_by == SettledBy::lammps;
@@ -192,7 +198,8 @@ Body bin_of(const BedSize& size, bool periodic) {
 }
 
 void pour(const BedRecipe& recipe, const GrainSink& put) {
-  recipe.grading.factor > 1 ? pour_graded(recipe, put) : pour_evenly(recipe, put);
+  const bool graded = recipe.grading.factor > 1 || recipe.soil.sizes.size() > 1;
+  graded ? pour_graded(recipe, put) : pour_evenly(recipe, put);
 }
 
 double Grading::scale(const BedSize& bed, double y, double z) const {
@@ -220,9 +227,7 @@ Grading grading_for(const Tire& tire, const GranularSoil& soil, double factor) {
 }
 
 double expected_grains(const BedRecipe& recipe) {
-  const double a = recipe.soil.radius_min, b = recipe.soil.radius_max;
-  const double mean_cube = (a + b) * (a * a + b * b) / 4;  // of a uniform radius
-  return volume_of_grains(recipe) / (4.0 / 3 * std::numbers::pi * mean_cube) *
+  return volume_of_grains(recipe) / (4.0 / 3 * std::numbers::pi * mean_cube(recipe.soil)) *
          recipe.grading.share_of_grains(recipe.size);
 }
 
@@ -252,13 +257,17 @@ Interaction interaction_of(const ContactPair& pair) {
   out.sliding_friction = pair.sliding_friction;
   out.rolling_friction = pair.rolling_friction;
   out.rolling_damping = pair.rolling_damping;
-  out.cohesion = pair.cohesion;
+  out.cohesion = pair.work_of_adhesion > 0 ? pair.work_of_adhesion : pair.cohesion;
   out.rolling_stiffness = pair.rolling_stiffness;
   return out;
 }
 
 ContactLaws with_cohesion_of(const ContactPair& pair, ContactLaws laws) {
-  if (pair.cohesion > 0 && laws.cohesion == CohesionLaw::none) laws.cohesion = CohesionLaw::linear;
+  if (laws.cohesion != CohesionLaw::none) return laws;
+  if (pair.work_of_adhesion > 0)
+    laws.cohesion = CohesionLaw::jkr;
+  else if (pair.cohesion > 0)
+    laws.cohesion = CohesionLaw::linear;
   return laws;
 }
 

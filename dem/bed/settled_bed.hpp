@@ -86,7 +86,8 @@ LawFlags laws_of(const GranularSoil& soil);
 
 /// What grains do to each other, and to tire, of a soil.
 Interaction interaction_of(const ContactPair& pair);
-/// The laws with linear cohesion switched on, where this pair has cohesion and no law of cohesion was chosen.
+/// The laws with the law of this pair's cohesion switched on, where it has a work of adhesion (jkr) or an energy
+/// density (linear), and no law of cohesion was chosen.
 ContactLaws with_cohesion_of(const ContactPair& pair, ContactLaws laws);
 
 /// The longest step for grains of this soil that the engine's check lets pass [s].
@@ -105,8 +106,9 @@ inline constexpr double most_steps_a_fall = 1e6;
 /// fall; for a largest grain of more than 50 times the smallest, and for a Poisson ratio below -0.9.
 void check_pace(const GranularSoil& soil, double gravity, double step);
 
-/// Throws InputError for grains that LAMMPS is not given: those of several spheres.
-void require_spheres(const GranularSoil& soil);
+/// Throws InputError for grains that LAMMPS is not given: those of several spheres, and those with jkr cohesion, which
+/// adhere beyond the contact that LAMMPS lists.
+void refuse_beyond_lammps(const GranularSoil& soil);
 
 /// How many grains are put into a bed, about.
 double expected_grains(const BedRecipe& recipe);

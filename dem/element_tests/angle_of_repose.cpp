@@ -9,6 +9,7 @@
 #include "dem/bed/grain_shape.hpp"
 #include "dem/bed/surface_height.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/grain_sizes.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -72,18 +73,17 @@ class Heap {
 Setup Heap::setup_for(const WorkOptions& how) const {
   Setup setup = loose_setup(soil_, settings_.dt, 40 * (settings_.radius + settings_.height) * d_, how);
   add_wall_material(setup, soil_, settings_.floor_friction);
-  setup.laws = settings_.laws;
+  setup.laws = with_cohesion_of(soil_.grain_grain, settings_.laws);
   return setup;
 }
 
 /// Fills the cylinder: grains put in loosely over the square around it, those outside taken away.
 void Heap::pour() {
   GrainMaker maker(soil_, settings_.packing);
-  const RadiusRange radii{soil_.radius_min, soil_.radius_max}, balls = maker.balls();
+  const RadiusRange balls = maker.balls();
   const double radius = settings_.radius * d_, rim = radius - balls.largest;
   const double volume = pi * radius * radius * settings_.height * d_ * loose;
-  const double a = radii.smallest, b = radii.largest;
-  const double mean_volume = pi / 3 * (a + b) * (a * a + b * b);
+  const double mean_volume = 4 * pi / 3 * mean_cube(soil_);
   const double wanted = volume / mean_volume;
   Region region{{-radius, -radius, 0}, {radius, radius, 0}};
   while (room_for(region, balls) * pi / 4 * (rim * rim) / (radius * radius) < wanted) region.upper.z += balls.largest;

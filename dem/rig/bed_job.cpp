@@ -10,18 +10,23 @@ namespace soilbin::dem {
 namespace fs = std::filesystem;
 
 template <class Notes>
+void parts(Notes& notes, GrainFraction& fraction) {
+  notes(fraction.radius, fraction.share);
+}
+
+template <class Notes>
 void parts(Notes& notes, BedRecipe& recipe) {
   auto& [soil, size, packing, grading, settling_friction, gravity, dt, laws, rest, settled_by, periodic] =
       recipe;  // LAMMPS settles none that is periodic
-  auto& [radius_min, radius_max, density, gravity_there, young, poisson, rolling, twisting, shape, spacing, grain_grain,
-         grain_tire,
-         sources] = soil;  // LAMMPS settles spheres alone; sources change no bed, and gravity is the recipe's
+  auto& [radius_min, radius_max, density, gravity_there, young, poisson, rolling, twisting, cohesion, shape, sizes,
+         spacing, grain_grain, grain_tire,
+         sources] = soil;  // LAMMPS settles spheres without jkr; sources change no bed, and gravity is the recipe's
   notes(radius_min, radius_max, density, young, poisson, rolling, twisting, grain_grain, grain_tire);
   notes(size.length, size.width, size.depth, packing);
   notes(grading.factor, grading.half_width, grading.depth, grading.transition);
   notes(settling_friction, gravity, dt);
   notes(laws.normal, laws.rolling, laws.cohesion, laws.twisting, laws.tangential_damping);
-  notes(rest.kinetic, rest.unbalanced, rest.every, rest.at_most, settled_by);
+  notes(rest.kinetic, rest.unbalanced, rest.every, rest.at_most, settled_by, sizes);
 }
 
 template <class Notes>

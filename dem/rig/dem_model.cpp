@@ -94,7 +94,7 @@ TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondi
   if (!scenario.effects.empty())
     throw InputError("dem takes no effects, but '" + scenario.effects.front().id + "' is switched on");
   const BedRecipe asked = recipe(scenario);
-  if (settings_.lammps) require_spheres(asked.soil);
+  if (settings_.lammps) refuse_beyond_lammps(asked.soil);
   check(scenario, at);  // before a bed is settled for it
   const auto bed = this->bed(asked);
   const ContactPair& contact = scenario.soil.granular->grain_tire;

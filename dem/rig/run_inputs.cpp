@@ -86,6 +86,7 @@ Inputs run_inputs(const BedRecipe& recipe, const Tire& tire, const Rig& rig) {
   if (recipe.laws.rolling == RollingLaw::elastic_plastic && contact.rolling_damping > 0)
     add(inputs, "soil.tire_rolling_damping", contact.rolling_damping);
   if (contact.rolling_stiffness > 0) add(inputs, "soil.tire_rolling_stiffness", contact.rolling_stiffness);
+  if (contact.work_of_adhesion > 0) add(inputs, "soil.tire_work_of_adhesion", contact.work_of_adhesion);
   add_rig(inputs, rig);
   add(inputs, "rig.time_step", step_of(recipe, rig));
   return inputs;

@@ -138,8 +138,9 @@ std::vector<compare::Target> targets_of(const Soil& soil, ContactKind kind, cons
   return targets;
 }
 
-std::vector<compare::Factor> factors_of(ContactKind kind, const Bounds& vary, const std::vector<std::string>& keep) {
-  std::vector<compare::Factor> factors = compare::usual_factors(kind);
+std::vector<compare::Factor> factors_of(ContactKind kind, const GranularSoil& soil, const Bounds& vary,
+                                        const std::vector<std::string>& keep) {
+  std::vector<compare::Factor> factors = compare::usual_factors(kind, soil);
   const auto called = [&](const std::string& name) {
     const auto found = std::find_if(factors.begin(), factors.end(), [&](const auto& f) { return f.name == name; });
     if (found == factors.end()) throw InputError("'" + name + "' is no number of this contact that is varied");
@@ -278,7 +279,7 @@ void bind_calibration(py::module_& module) {
   const auto run = [](const Soil& soil, const Q& asked, int threads, const py::object& progress) {
     ContactQuestion question = asked.contact_test;
     question.kind = kind_of(asked.contact);
-    question.factors = factors_of(question.kind, asked.vary, asked.keep);
+    question.factors = factors_of(question.kind, grains_of(soil), asked.vary, asked.keep);
     question.targets = targets_of(soil, question.kind, asked.targets);
     if (asked.test != "triaxial" && asked.test != "direct-shear")
       throw InputError("test: 'triaxial' or 'direct-shear'");

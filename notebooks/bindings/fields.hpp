@@ -157,8 +157,9 @@ void described(py::class_<T>& to, const std::vector<std::string>& more = {}) {
   describe(fields, std::type_identity<T>{});
   std::vector<std::string> known = keys_of<T>();
   known.insert(known.end(), more.begin(), more.end());
-  const auto fill = [known](T& value, const py::kwargs& given) {
+  const auto fill = [known](T& value, const py::kwargs& given, bool is_new) {
     set_attributes(py::cast(&value, py::return_value_policy::reference), given, known);
+    if (is_new) fill_in(value, [&](const char* key) { return given.contains(key); });
     if (const std::string wrong = contradiction(value); !wrong.empty()) throw InputError(wrong);
   };
   to.def(py::init([fill, known, required = fields.required](const py::kwargs& given) {
@@ -166,8 +167,7 @@ void described(py::class_<T>& to, const std::vector<std::string>& more = {}) {
            for (const std::string& key : required)
              if (!given.contains(key.c_str())) throw py::type_error("missing keyword argument '" + key + "'");
            T value{};
-           fill(value, given);
-           fill_in(value, [&](const char* key) { return given.contains(key); });
+           fill(value, given, true);
            return value;
          }),
          "By keywords: the attributes, in SI.");
@@ -175,7 +175,7 @@ void described(py::class_<T>& to, const std::vector<std::string>& more = {}) {
       "replace",
       [fill](const T& self, const py::kwargs& given) {
         T value = self;
-        fill(value, given);
+        fill(value, given, false);
         return value;
       },
       "A copy in which the attributes given are changed.");

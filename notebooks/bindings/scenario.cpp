@@ -77,8 +77,13 @@ void bind_tire_and_soil(py::module_& module) {
   described(pair);
   bind_words<RollingResistance>(module, "RollingResistance", "How grains resist rolling (docs/theory/dem-laws.md).");
   bind_words<TwistingResistance>(module, "TwistingResistance", "How grains resist twisting (docs/theory/dem-laws.md).");
+  bind_words<GrainCohesion>(module, "GrainCohesion", "How grains pull each other together (docs/theory/dem-laws.md).");
   bind_words<GrainShape>(module, "GrainShape", "What a grain is made of: a sphere, or several joined for good.");
-  py::class_<GranularSoil> granular(module, "GranularSoil", "A soil as grains, radii uniform between two bounds.");
+  py::class_<GrainFraction> fraction(module, "GrainFraction",
+                                     "Grains of one size among others, by their share of the mass.");
+  described(fraction);
+  py::class_<GranularSoil> granular(
+      module, "GranularSoil", "A soil as grains: radii uniform between two bounds, or fractions of one size each.");
   described(granular);
   py::class_<ResistiveForceSoil> resistive_force(module, "ResistiveForceSoil",
                                                  "A soil as resistive force theory knows it (model rft).");

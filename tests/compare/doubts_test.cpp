@@ -407,7 +407,23 @@ TEST(Doubts, CohesionThatPressesGrainsTogetherIsTold) {
   cohesion = 99999e3;
   EXPECT_THAT(doubts(question, {}),
               ElementsAre(tells(DoubtKind::cohesion_presses_grains,
-                                {99999, std::pow(0.75 * std::numbers::pi * 99999 / 2500, 2) / 2, 671})));
+                                {"cohesion", 99999, "kJ/m^3", std::pow(0.75 * std::numbers::pi * 99999 / 2500, 2) / 2,
+                                 671, "kJ/m^3"})));
+}
+
+// Two grains of 2.5 mm radius, R* = 1.25 mm, E* = 2.5 MPa: jkr holds them without load at delta = a^2/(3 R*), a^3 =
+// (9/2) pi w R*^2/E*. 0.2 of a radius is a = 1.369 mm, so w = 290.6 J/m^2.
+TEST(Doubts, AdhesionThatPressesGrainsTogetherIsTold) {
+  Case question = sand_and_wheel();
+  GranularSoil& grains = *question.scenario.soil.granular;
+  grains.cohesion_law = GrainCohesion::jkr;
+  grains.grain_grain.work_of_adhesion = 290;
+  EXPECT_THAT(doubts(question, {}), IsEmpty());
+  grains.grain_grain.work_of_adhesion = 400;
+  const double r_star = 1.25e-3, a = std::cbrt(4.5 * std::numbers::pi * 400 * r_star * r_star / 2.5e6);
+  EXPECT_THAT(doubts(question, {}),
+              ElementsAre(tells(DoubtKind::cohesion_presses_grains,
+                                {"work_of_adhesion", 400, "J/m^2", a * a / (3 * r_star) / 2.5e-3, 290.58, "J/m^2"})));
 }
 
 TEST(Doubts, ARollingLawThatHangsOnTheStepIsToldWhereGrainsAnswer) {

@@ -73,7 +73,7 @@ TEST(GradedBed, IsAnotherBedThanAUniformOneWhoseKeyStays) {
 }
 
 TEST(GradedBed, IsFilledWithTheSoilsRadiiWhateverTheirScale) {
-  constexpr RadiusRange radii{0.8, 1.2};
+  const RadiusRange radii{0.8, 1.2};
   const auto scale = [](const Vec3& at) { return at.z < 15 ? 2.0 : 1.0; };
   std::array<int, 4> quarter{};
   const auto put = [&](const Vec3& at, double radius) {

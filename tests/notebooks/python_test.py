@@ -621,6 +621,86 @@ class Stops(RuntimeError):
     """Raised by a progress in these tests."""
 
 
+class GrainsOfASoil(unittest.TestCase):
+    CONTACT = soilbin.ContactPair(restitution=0.5, sliding_friction=0.5, rolling_friction=0.1)
+    STICKY = soilbin.ContactPair(restitution=0.5, sliding_friction=0.5, rolling_friction=0.1, work_of_adhesion=20)
+
+    def made(self, **more):
+        return soilbin.GranularSoil(**{"grain_density": 2650, "youngs_modulus": 5e7, "poisson_ratio": 0.25,
+                                       "grain_grain": self.CONTACT, "grain_tire": self.CONTACT, **more})
+
+    def test_sizes_stand_in_place_of_radii(self):
+        sizes = [soilbin.GrainFraction(radius=radius, share=share) for radius, share in ((0.001, 0.4), (0.002, 0.6))]
+        grains = self.made(sizes=sizes)
+        self.assertEqual((grains.radius_min, grains.radius_max), (0.001, 0.002))
+        self.assertIn("sizes:", soilbin.write_soil(soilbin.Soil(name="sand", granular=grains)))
+        for wrong in ({}, {"radius_min": 0.001}, {"sizes": sizes, "radius_max": 0.003}, {"sizes": sizes[:1]}):
+            with self.assertRaises(soilbin.InputError, msg=str(wrong)):
+                self.made(**wrong)
+
+    def test_jkr_goes_with_a_work_of_adhesion(self):
+        radii = {"radius_min": 0.001, "radius_max": 0.002}
+        grains = self.made(cohesion_law=soilbin.GrainCohesion.jkr, grain_grain=self.STICKY, **radii)
+        self.assertEqual(grains.grain_grain.work_of_adhesion, 20)
+        for wrong in ({"grain_grain": self.STICKY}, {"cohesion_law": soilbin.GrainCohesion.jkr}):
+            with self.assertRaisesRegex(soilbin.InputError, "cohesion_law"):
+                self.made(**wrong, **radii)
+
+
+LIGGGHTS = """units si
+variable mu equal 0.55   # of sand on sand
+fix m1 all property/global youngsModulus peratomtype 1e7 5e6
+fix m2 all property/global poissonsRatio peratomtype 0.25 0.45
+fix m3 all property/global coefficientRestitution peratomtypepair 2 &
+    0.3 0.4 &
+    0.4 0.5
+fix m4 all property/global coefficientFriction peratomtypepair 2 ${mu} 0.6 0.6 0.7
+fix m5 all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.2 0.2 0.3
+fix m6 all property/global coefficientRollingViscousDamping peratomtypepair 2 0.3 0.3 0.3 0.3
+fix m7 all property/global cohesionEnergyDensity peratomtypepair 2 1000 0 0 0
+pair_style gran model hertz tangential history cohesion sjkr rolling_friction epsd
+fix g all gravity 1.62 vector 0.0 0.0 -1.0
+fix p1 all particletemplate/sphere 15485863 atom_type 1 density constant 2650 radius constant 0.004
+fix p2 all particletemplate/sphere 15485867 atom_type 1 density constant 2650 radius constant 0.002
+fix d all particledistribution/discrete 32452843 2 p1 0.3 p2 0.7
+"""
+
+
+class LiggghtsScripts(unittest.TestCase):
+    def soil(self, text, **asked):
+        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            script = Path(folder) / "in.sand"
+            script.write_text(text)
+            return soilbin.soil_from_liggghts(script, **asked), [str(one.message) for one in told]
+
+    def test_their_materials_are_a_soil(self):
+        soil, told = self.soil(LIGGGHTS, grains=1, tire=2)
+        grains = soil.granular
+        self.assertEqual((soil.name, grains.youngs_modulus, grains.poisson_ratio, grains.gravity), ("sand", 1e7, 0.25, 1.62))
+        self.assertEqual((grains.grain_grain.restitution, grains.grain_grain.sliding_friction), (0.3, 0.55))
+        self.assertEqual((grains.grain_tire.restitution, grains.grain_tire.rolling_friction), (0.4, 0.2))
+        self.assertEqual(grains.rolling_resistance, soilbin.RollingResistance.elastic_plastic)
+        self.assertEqual(grains.grain_grain.cohesion, 2000, "over 2 pi R* delta there, pi R* delta here")
+        self.assertEqual([(one.radius, one.share) for one in grains.sizes], [(0.002, 0.7), (0.004, 0.3)])
+        self.assertEqual(len(told), 1)
+        self.assertIn("not carried over: the tire's own stiffness", told[0])
+        self.assertIn("sizes:", soilbin.write_soil(soil))
+
+    def test_what_is_not_carried_over_is_told_and_what_cannot_be_is_refused(self):
+        told = self.soil(LIGGGHTS.replace("epsd", "epsd2").replace("history", "no_history"))[1]
+        self.assertEqual(len(told), 3, told)
+        for old, new, why in (("units si", "units cgs", "no line 'units si'"), ("model hertz", "model hooke", "in.sand:12: the normal law"),
+                              ("${mu} 0.6", "${nu} 0.6", r"in.sand:8: expected a number, not '\$\{nu\}'"),
+                              ("0.3 0.4 &", "0.3 &", "in.sand:5: coefficientRestitution has 3 values"),
+                              ("youngsModulus", "youngModulus", "no property/global youngsModulus"),
+                              ("discrete 3", "discrete/numberbased 3", "by number")):
+            with self.assertRaisesRegex(soilbin.InputError, why):
+                self.soil(LIGGGHTS.replace(old, new))
+        with self.assertRaisesRegex(soilbin.InputError, "youngsModulus has 2 types|no particletemplate"):
+            self.soil(LIGGGHTS, grains=3)
+
+
 class LongWork(unittest.TestCase):
     def box(self, progress):
         sand = soilbin.find_soil("paper-sand").granular

@@ -90,6 +90,8 @@ GranularSoil any_granular() {
   soil.poisson_ratio = *between(-0.9, 0.5);
   soil.grain_tire = {*between(0, 1), *between(0, 2), *between(0, 1)};
   soil.sources["grain_tire.restitution"] = "Table 3";
+  if (*rc::gen::arbitrary<bool>())
+    soil.cohesion_law = GrainCohesion::jkr, soil.grain_grain.work_of_adhesion = *between(1e-3, 10);
   return soil;
 }
 

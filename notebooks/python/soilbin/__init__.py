@@ -32,6 +32,8 @@ from soilbin._soilbin import (
     EffectForm,
     Estimate,
     ForceFrame,
+    GrainCohesion,
+    GrainFraction,
     GranularSoil,
     InputError,
     Lugs,
@@ -75,17 +77,18 @@ from soilbin._soilbin import (
     write_tire,
 )
 from soilbin.exports import export_fmi, export_gazebo, export_scm, export_table
+from soilbin.other_codes import soil_from_liggghts
 from soilbin.questions import SoilbinWarning, conditions, estimate, names, run_study, sweep
 from soilbin.vehicles import drive_vehicle, vehicle_on_soil, wheels_frame
 
 __all__ = [
     "Bin", "Case", "ConeIndex", "ContactPair", "Controller", "Drive", "DriveLine", "EffectChoice", "EffectForm", "Estimate", "ForceFrame",
-    "GranularSoil", "InputError", "LugPattern", "Lugs", "Model", "ModelKind", "NoSolution", "OperatingCondition",
+    "GrainCohesion", "GrainFraction", "GranularSoil", "InputError", "LugPattern", "Lugs", "Model", "ModelKind", "NoSolution", "OperatingCondition",
     "ResistiveForce", "ResistiveForceSoil", "RollingResistance", "RunStopped", "Scenario", "SemiEmpiricalSoil", "Shelf", "SlipBy", "Soil", "SoilbinWarning",
     "Tire", "TractionResult", "Vehicle", "VehicleAxle", "VehicleCondition", "VehicleDrive", "VehicleHitch",
     "VehiclePoint", "VehicleStop", "Waypoint", "__version__", "at_density",
     "bekker_wong", "cases_folders", "compare", "conditions", "dem",
     "doubts", "drive_vehicle", "effect_catalogue", "estimate", "export_fmi", "export_gazebo", "export_scm", "export_table", "find_case",
-    "find_soil", "find_tire", "find_vehicle", "in_words", "names", "parse_case", "parse_vehicle", "run_study", "sweep",
+    "find_soil", "find_tire", "find_vehicle", "in_words", "names", "parse_case", "parse_vehicle", "run_study", "soil_from_liggghts", "sweep",
     "vehicle_on_soil", "wheels_frame", "write_soil", "write_tire",
 ]
