@@ -149,13 +149,14 @@ SteadyWheel SteadyVehicles::rolled(std::size_t wheel, const OperatingCondition& 
   return steady;
 }
 
-/// The wheel at the slip next to `from` at which its torque is this one; looks up where it is less there, else down.
-SteadyWheel SteadyVehicles::free(std::size_t wheel, OperatingCondition at, double torque, double from) const {
+/// Looks up where its torque is less there, else down.
+SteadyWheel SteadyVehicles::free(std::size_t wheel, OperatingCondition at, const std::function<double(double)>& torque,
+                                 double from) const {
   SteadyWheel steady;
   const auto missing = [&](double slip) {
     at.slip = slip;
     steady = rolled(wheel, at);
-    return steady.result.torque.value - torque;
+    return steady.result.torque.value - torque(slip);
   };
   double here = from, f = missing(here);
   if (steady.lifted || f == 0.0) return steady;
@@ -171,7 +172,7 @@ SteadyWheel SteadyVehicles::free(std::size_t wheel, OperatingCondition at, doubl
     here = next, f = g;
   }
   throw VehicleGaveOut(GaveOut::wheel, wheel,
-                       torque == 0.0 ? "no slip at which it rolls freely" : "no slip gives its torque");
+                       torque(end) == 0.0 ? "no slip at which it rolls freely" : "no slip gives its torque");
 }
 
 void SteadyVehicles::roll_axle(std::size_t axle, double slip, std::vector<OperatingCondition>& at,
@@ -180,6 +181,7 @@ void SteadyVehicles::roll_axle(std::size_t axle, double slip, std::vector<Operat
   std::vector<std::size_t> mine;
   for (std::size_t i = 0; i < wheels_.size(); ++i)
     if (wheels_[i].axle == axle) mine.push_back(i);
+  const auto no_torque = [](double) { return 0.0; };
   /// The slip at a rim speed `faster` times that of the drive line.
   const auto slip_at = [&](std::size_t i, double faster) {
     const double share = std::cos(at[i].yaw) / ((1.0 + about.lead) * faster);
@@ -191,11 +193,11 @@ void SteadyVehicles::roll_axle(std::size_t axle, double slip, std::vector<Operat
     return wheels[i].result.torque.value;
   };
   if (about.driven == YesNo::no) {
-    for (const std::size_t i : mine) wheels[i] = free(i, at[i], 0.0, 0.0);
+    for (const std::size_t i : mine) wheels[i] = free(i, at[i], no_torque, 0.0);
   } else if (vehicle_.drive_line == DriveLine::open_axles && mine.size() == 2) {
     const std::size_t left = mine[0], right = mine[1];
     if (at[left].load <= 0.0 || at[right].load <= 0.0) {  // a wheel in the air takes no torque, nor does the other
-      for (const std::size_t i : mine) wheels[i] = free(i, at[i], 0.0, 0.0);
+      for (const std::size_t i : mine) wheels[i] = free(i, at[i], no_torque, 0.0);
       return;
     }
     const auto unlike = [&](double d) { return roll(left, 1.0 + d) - roll(right, 1.0 - d); };
@@ -216,11 +218,17 @@ void SteadyVehicles::roll_axle(std::size_t axle, double slip, std::vector<Operat
     throw VehicleGaveOut(GaveOut::wheel, direction > 0 ? left : right,
                          "its differential turns it without end: it takes less torque than the other wheel");
   } else {
-    for (const std::size_t i : mine)
-      if (roll(i, 1.0) > about.largest_torque.value_or(HUGE_VAL)) {
-        wheels[i] = free(i, at[i], *about.largest_torque, at[i].slip);
+    for (const std::size_t i : mine) {
+      const auto largest = [&, in_plane = at[i].speed * std::cos(at[i].yaw)](double at_slip) {
+        if (!about.motor) return about.largest_torque.value_or(HUGE_VAL);
+        const double spin = in_plane / speed_ratio(at_slip) / about.tire.radius;
+        return spin > top_spin(*about.motor) ? 0.0 : torque_at_wheels(*about.motor, spin);
+      };
+      if (roll(i, 1.0) > largest(at[i].slip)) {
+        wheels[i] = free(i, at[i], largest, at[i].slip);
         wheels[i].at_largest_torque = true;
       }
+    }
   }
 }
 
@@ -388,8 +396,11 @@ SteadyVehicle SteadyVehicles::pulling(const VehicleCondition& at) const {
   if (first.f < 0.0 && most.pull >= at.pull) return root(first.x, most.slip);
   if (first.f > 0.0 && most.pull <= at.pull) return root(first.x, most.slip);
   if (said) throw VehicleGaveOut(*said);
-  throw VehicleGaveOut(braked ? GaveOut::hold : GaveOut::pull, weakest_wheel(most),
-                       braked ? "its braked wheels do not hold it" : "its wheels pull too little at every slip");
+  const GaveOut why = why_too_little(most, braked);
+  throw VehicleGaveOut(why, weakest_wheel(most),
+                       braked                   ? "its braked wheels do not hold it"
+                       : why == GaveOut::torque ? "its motors give too little torque at every slip"
+                                                : "its wheels pull too little at every slip");
 }
 
 std::size_t weakest_wheel(const SteadyVehicle& vehicle) {
@@ -400,6 +411,11 @@ std::size_t weakest_wheel(const SteadyVehicle& vehicle) {
   for (std::size_t i = 1; i < vehicle.wheels.size(); ++i)
     if (share(vehicle.wheels[i]) < share(vehicle.wheels[weakest])) weakest = i;
   return weakest;
+}
+
+GaveOut why_too_little(const SteadyVehicle& most, bool braked) {
+  if (braked) return GaveOut::hold;
+  return std::ranges::any_of(most.wheels, &SteadyWheel::at_largest_torque) ? GaveOut::torque : GaveOut::pull;
 }
 
 }  // namespace soilbin::compare

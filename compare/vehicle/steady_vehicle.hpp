@@ -6,6 +6,7 @@
 //   climbs.slip, climbs.wheels[0].result.at.load                                    // [-], [N]
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -60,6 +61,7 @@ std::vector<double> axle_loads(const std::vector<CarryingAxle>& axles, double no
 enum class GaveOut {
   wheel,      ///< the model has no answer for one of its wheels
   pull,       ///< all its wheels together pull less than is asked of them, at every slip
+  torque,     ///< so do they where motors give no more
   hold,       ///< braked by its drive line it runs away downhill, at every slip
   tips_over,  ///< it stands on the wheels of one side alone
   slides,     ///< nothing balances the forces across its travel
@@ -86,7 +88,7 @@ struct SteadyWheel {
   double slip_loss = 0.0;          ///< (M/r) (r w - v) [W], v: its speed in its own plane
   double soil_loss = 0.0;          ///< (M/r) v less what pushes the vehicle along its travel, times its speed [W]
   bool lifted = false;             ///< off the ground: no forces
-  bool at_largest_torque = false;  ///< its motor gives no more
+  bool at_largest_torque = false;  ///< its motor gives no more, or turns no faster
 };
 
 /// Powers add up: into the wheels = drawbar + climbing + slip loss + soil loss.
@@ -154,7 +156,9 @@ class SteadyVehicles {
   double fastest() const;
   Trial trial(const VehicleCondition& at, double slip, const Modes& modes, std::span<const double> x) const;
   SteadyWheel rolled(std::size_t wheel, const OperatingCondition& at) const;
-  SteadyWheel free(std::size_t wheel, OperatingCondition at, double torque, double from) const;
+  /// The wheel at the slip next to `from` at which its torque is that of `torque(slip)`.
+  SteadyWheel free(std::size_t wheel, OperatingCondition at, const std::function<double(double)>& torque,
+                   double from) const;
   void roll_axle(std::size_t axle, double slip, std::vector<OperatingCondition>& at,
                  std::vector<SteadyWheel>& wheels) const;
 
@@ -165,5 +169,8 @@ class SteadyVehicles {
 
 /// The wheel that gives least for its load: the one to look at where the pull of all is too little.
 std::size_t weakest_wheel(const SteadyVehicle& vehicle);
+
+/// Why a vehicle that pulls most (braked: least) like this doesn't pull what is asked.
+GaveOut why_too_little(const SteadyVehicle& most, bool braked);
 
 }  // namespace soilbin::compare

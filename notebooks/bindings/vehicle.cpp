@@ -23,6 +23,12 @@ std::vector<compare::VehicleWheel> wheels_with_tires(const VehicleCase& vehicle)
   if (vehicle.axles.empty()) throw InputError("the vehicle has no axles");
   for (std::size_t i = 0; i < vehicle.axles.size(); ++i)
     if (!(vehicle.axles[i].tire.radius > 0)) throw InputError(fmt::format("axles[{}] has no tire", i));
+  const auto refuse = [](const std::string& wrong) {
+    if (!wrong.empty()) throw InputError(wrong);
+  };
+  if (vehicle.motor) refuse(contradiction(*vehicle.motor));
+  for (const VehicleAxle& axle : vehicle.axles)
+    if (axle.motor) refuse(contradiction(*axle.motor));
   return wheels_of(vehicle);
 }
 
@@ -59,6 +65,10 @@ void bind_parts(py::module_& module) {
   py::class_<compare::VehiclePoint> point(module, "VehiclePoint",
                                           "A point of the vehicle: x forward, y to the left, z up from the ground.");
   described(point);
+  py::class_<TorquePoint> torque_point(module, "TorquePoint", "A point of a motor's torque curve.");
+  described(torque_point);
+  py::class_<GearedMotor> motor(module, "GearedMotor", "A motor's largest torque against its speed, through its gear.");
+  described(motor);
   py::class_<VehicleAxle> axle(module, "VehicleAxle", "Two wheels beside each other, or one without a track.");
   axle.def_property(
       "tire", [](const VehicleAxle& a) { return a.tire; },

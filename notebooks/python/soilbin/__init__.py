@@ -32,6 +32,7 @@ from soilbin._soilbin import (
     EffectForm,
     Estimate,
     ForceFrame,
+    GearedMotor,
     GranularSoil,
     InputError,
     Lugs,
@@ -50,6 +51,7 @@ from soilbin._soilbin import (
     SlipBy,
     Soil,
     Tire,
+    TorquePoint,
     TractionResult,
     Vehicle,
     VehicleAxle,
@@ -80,9 +82,9 @@ from soilbin.vehicles import drive_vehicle, vehicle_on_soil, wheels_frame
 
 __all__ = [
     "Bin", "Case", "ConeIndex", "ContactPair", "Controller", "Drive", "DriveLine", "EffectChoice", "EffectForm", "Estimate", "ForceFrame",
-    "GranularSoil", "InputError", "LugPattern", "Lugs", "Model", "ModelKind", "NoSolution", "OperatingCondition",
+    "GearedMotor", "GranularSoil", "InputError", "LugPattern", "Lugs", "Model", "ModelKind", "NoSolution", "OperatingCondition",
     "ResistiveForce", "ResistiveForceSoil", "RollingResistance", "RunStopped", "Scenario", "SemiEmpiricalSoil", "Shelf", "SlipBy", "Soil", "SoilbinWarning",
-    "Tire", "TractionResult", "Vehicle", "VehicleAxle", "VehicleCondition", "VehicleDrive", "VehicleHitch",
+    "Tire", "TorquePoint", "TractionResult", "Vehicle", "VehicleAxle", "VehicleCondition", "VehicleDrive", "VehicleHitch",
     "VehiclePoint", "VehicleStop", "Waypoint", "__version__", "at_density",
     "bekker_wong", "cases_folders", "compare", "conditions", "dem",
     "doubts", "drive_vehicle", "effect_catalogue", "estimate", "export_fmi", "export_gazebo", "export_scm", "export_table", "find_case",
