@@ -11,47 +11,13 @@
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/telling/reports.hpp"
+#include "compare/telling/vehicle_words.hpp"
 #include "compare/vehicle/vehicle_answers.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-constexpr double exact_error = 0.0;
-
-double told_error(double error) { return std::isfinite(error) ? error : exact_error; }
-
-std::string wheel_called(const VehicleAnswers& answers, const VehicleFailure& failure) {
-  return failure.wheel ? answers.wheels[*failure.wheel].name : "";
-}
-
-/// What gave out, without a full stop.
-std::string failure_in_words(const VehicleAnswers& answers, const VehicleFailure& failure) {
-  const std::string wheel = wheel_called(answers, failure);
-  switch (failure.why) {
-    case GaveOut::wheel:
-      return fmt::format("the wheel '{}' gives out: {}", wheel, failure.words);
-    case GaveOut::pull:
-      return fmt::format("at every slip its wheels pull too little; the weakest for its load is '{}'", wheel);
-    case GaveOut::torque:
-      return fmt::format("its motors give too little torque at every slip; the weakest wheel for its load is '{}'",
-                         wheel);
-    case GaveOut::hold:
-      return fmt::format("the drive line does not hold it at any slip; the weakest wheel for its load is '{}'", wheel);
-    case GaveOut::tips_over:
-      return "it tips over";
-    case GaveOut::slides:
-      return "nothing balances the forces across its travel: it slides sideways";
-  }
-  return "";
-}
-
-const char* failure_word(GaveOut why) {
-  constexpr std::array words = {"wheel", "pull",      "torque",
-                                "hold",  "tips_over", "slides"};  // in the order of its values
-  return words[static_cast<std::size_t>(why)];
-}
 
 std::string condition_in_words(const VehicleCondition& at) {
   std::string words = fmt::format("slope {:.4g} deg", at.slope / degree);
@@ -68,16 +34,6 @@ std::string angle_of(const VehicleLimit& limit) {
 
 std::string too_fast_in_words(const VehicleAnswers& answers) {
   return fmt::format("it does not hold {} m/s", number(answers.question.condition.speed, 3));
-}
-
-constexpr std::array<const char*, 4> travel_limit_words = {"soil", "torque", "power", "speed"};  // as its values
-
-const char* limit_word(TravelLimit limit) { return travel_limit_words[static_cast<std::size_t>(limit)]; }
-
-std::string travel_limit_in_words(TravelLimit limit) {
-  constexpr std::array<const char*, 4> words = {"the soil gives no more", "the motors give no more torque",
-                                                "the power is used up", "the motors turn no faster"};
-  return words[static_cast<std::size_t>(limit)];
 }
 
 std::string speed_of(const Estimate& speed) { return number({speed.value, told_error(speed.std_error)}) + " m/s"; }
@@ -144,7 +100,7 @@ std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
       said.push_back({"Yaw moment",
                       fmt::format("{} N m are left to turn it; no steered axle balances them.", number(v.yaw_moment))});
   } else {
-    said.push_back({"It does not travel", failure_in_words(answers, *answers.failure) + "."});
+    said.push_back({"It does not travel", failure_in_words(answers.wheels, *answers.failure) + "."});
   }
   add_motor_verdicts(answers, said);
   said.push_back({"Steepest slopes", fmt::format("Up {}, down {}, across {}.", angle_of(answers.up),
@@ -164,7 +120,7 @@ Table limits_of_vehicle(const VehicleAnswers& answers) {
   table.text_columns = {true, false, false, true};
   const auto add = [&](const char* way, const VehicleLimit& limit) {
     table.add({way, limit_in_words(limit), limit.angle ? number(100 * limit.slip) : "-",
-               limit.angle ? failure_in_words(answers, limit.beyond) : "beyond what was looked at, or none"});
+               limit.angle ? failure_in_words(answers.wheels, limit.beyond) : "beyond what was looked at, or none"});
   };
   add("up", answers.up);
   add("down", answers.down);
@@ -346,12 +302,6 @@ Sheet vehicle_sheet(const VehicleAnswers& answers) {
   return sheet;
 }
 
-Json failure_json(const VehicleAnswers& answers, const VehicleFailure& failure) {
-  return {{"why", failure_word(failure.why)},
-          {"wheel", failure.wheel ? Json(wheel_called(answers, failure)) : Json()},
-          {"text", failure_in_words(answers, failure)}};
-}
-
 Json wheel_json(const VehicleWheel& about, const SteadyWheel& wheel, const SteadyErrors::Wheel& e) {
   const TractionResult& r = wheel.result;
   const auto estimate = [](double value, double error) { return estimate_json({value, error}); };
@@ -377,14 +327,14 @@ Json limit_json(const VehicleAnswers& answers, const VehicleLimit& limit) {
   Json json = {{"slope", or_null(limit.angle)}};
   if (!limit.angle) return json;
   json["slip"] = limit.slip;
-  json["beyond"] = failure_json(answers, limit.beyond);
+  json["beyond"] = failure_json(answers.wheels, limit.beyond);
   return json;
 }
 
 Json fastest_json(const FastestTravel& fastest) {
   return {{"slope", fastest.slope},
           {"speed", or_null(fastest.speed)},
-          {"limit", fastest.limit ? Json(limit_word(*fastest.limit)) : Json()}};
+          {"limit", fastest.limit ? Json(travel_limit_word(*fastest.limit)) : Json()}};
 }
 
 Json asked_of_vehicle_json(const VehicleCondition& at) {
@@ -430,7 +380,7 @@ Json vehicle_json(const VehicleAnswers& answers) {
                    {"soil", question.soil.name},
                    {"condition", asked_of_vehicle_json(question.condition)}};
   document["steady"] = answers.steady ? steady_vehicle_json(answers) : Json();
-  document["failure"] = answers.failure ? failure_json(answers, *answers.failure) : Json();
+  document["failure"] = answers.failure ? failure_json(answers.wheels, *answers.failure) : Json();
   document["speed_at_largest_power"] = or_null(answers.power_speed);
   document["holds_speed"] = answers.steady && answers.holds_speed();
   document["steepest"] = {{"up", limit_json(answers, answers.up)},
@@ -438,7 +388,7 @@ Json vehicle_json(const VehicleAnswers& answers) {
                           {"across", limit_json(answers, answers.across)}};
   document["fastest"] = answers.fastest ? fastest_json(*answers.fastest) : Json();
   document["gradeability"] = answers.gradeability ? Json{{"slope", or_null(answers.gradeability->angle)},
-                                                         {"limit", limit_word(answers.gradeability->limit)}}
+                                                         {"limit", travel_limit_word(answers.gradeability->limit)}}
                                                   : Json();
   document["climbs"] = list_of(answers.climbs, fastest_json);
   document["map"] = answers.map ? map_json(*answers.map) : Json();
@@ -446,7 +396,7 @@ Json vehicle_json(const VehicleAnswers& answers) {
     Json json = {{"slip", row.slip}};
     json["pull"] = row.vehicle ? estimate_json({row.vehicle->pull, row.pull_error}) : Json();
     json["into_wheels"] = row.vehicle ? finite(row.vehicle->power.into_wheels) : Json();
-    if (row.failure) json["failure"] = failure_json(answers, *row.failure);
+    if (row.failure) json["failure"] = failure_json(answers.wheels, *row.failure);
     return json;
   });
   return document;
@@ -458,7 +408,8 @@ std::string vehicle_csv(const VehicleAnswers& answers) {
       "wheel_sinkage_m,wheel_contact_area_m2,error\n";
   for (const VehiclePullRow& row : answers.pulls) {
     if (!row.vehicle) {
-      text += fmt::format("{},,,,,,,,,,,{}\n", csv_number(row.slip), csv_cell(failure_in_words(answers, *row.failure)));
+      text += fmt::format("{},,,,,,,,,,,{}\n", csv_number(row.slip),
+                          csv_cell(failure_in_words(answers.wheels, *row.failure)));
       continue;
     }
     for (std::size_t i = 0; i < answers.wheels.size(); ++i) {
@@ -510,7 +461,7 @@ Report report_on(const VehicleAnswers& answers) {
   if (const auto remarks = vehicle_remarks(answers); !remarks.empty()) report.add(Sentences(remarks));
   report.sheet = drawn_once([&] { return vehicle_sheet(answers); });
   report.add("Against slip", Figure(report.sheet, "Band: one standard error of the pull."));
-  if (answers.failure) report.no_answer = "does not travel: " + failure_in_words(answers, *answers.failure);
+  if (answers.failure) report.no_answer = "does not travel: " + failure_in_words(answers.wheels, *answers.failure);
   if (answers.steady && !answers.holds_speed())
     report.no_answer = too_fast_in_words(answers) + ": " +
                        (answers.fastest->limit == TravelLimit::power ? "too little power"

@@ -76,6 +76,8 @@ std::string contradiction(const VehicleCase& vehicle) {
       return fmt::format("axle '{}' has a motor and is not driven", axle.name);
     if (axle.motor && axle.largest_torque)
       return fmt::format("axle '{}' has a motor and a largest_torque: give one of the two", axle.name);
+    if (axle.largest_steer && axle.steered == YesNo::no)
+      return fmt::format("axle '{}' has a largest_steer and is not steered", axle.name);
     if (axle.largest_torque && vehicle.drive_line != DriveLine::motors)
       return fmt::format("axle '{}' has a largest_torque, which belongs to the drive_line 'motors'", axle.name);
     if (axle.largest_torque && axle.driven == YesNo::no)

@@ -29,11 +29,15 @@ struct VehiclePoint {
 enum class DriveLine {
   locked,      ///< every driven wheel has the same rim speed, but for its axle's lead
   open_axles,  ///< the axles have the same mean rim speed; across an axle the torque is the same
+  sides,       ///< the driven wheels of a side turn together; both sides alike straight on, unlike in a turn
   motors,      ///< a motor a wheel: one rim speed is asked of all, and each gives no more than its axle says
 };
 
-constexpr std::array<Word<DriveLine>, 3> words_of(std::type_identity<DriveLine>) {
-  return {{{"locked", DriveLine::locked}, {"open_axles", DriveLine::open_axles}, {"motors", DriveLine::motors}}};
+constexpr std::array<Word<DriveLine>, 4> words_of(std::type_identity<DriveLine>) {
+  return {{{"locked", DriveLine::locked},
+           {"open_axles", DriveLine::open_axles},
+           {"sides", DriveLine::sides},
+           {"motors", DriveLine::motors}}};
 }
 
 /// Two wheels beside each other, or one.
@@ -44,6 +48,7 @@ struct VehicleAxle {
   std::optional<double> track{};           ///< between the middles of its two wheels [m], > 0; absent: it has one wheel
   YesNo driven = YesNo::yes;               ///< no: its wheels roll freely
   YesNo steered = YesNo::no;               ///< whether it may be turned to keep the vehicle on its line
+  std::optional<double> largest_steer{};   ///< of its middle to either side [rad], > 0; absent: nothing stops it
   double lead = 0.0;                       ///< its rim speed over that of the drive line, less 1 [-], > -1
   std::optional<double> largest_torque{};  ///< of a wheel's motor [N m], > 0
   std::optional<GearedMotor> motor{};      ///< of each of its wheels; its gear ratio is over that wheel's revolutions
@@ -65,6 +70,7 @@ struct VehicleCondition {
   double cross_slope = 0.0;  ///< [rad], left side up positive
   double speed = 1.0;        ///< of travel [m/s], > 0
   double pull = 0.0;         ///< of the drawbar [N]: what the vehicle pulls behind it
+  double curvature = 0.0;    ///< of the path of its centre of gravity [1/m], to the left positive; of no file
 };
 
 /// A stop on the way, and the start from it.
@@ -125,6 +131,9 @@ void describe(Visitor& v, std::type_identity<VehicleAxle>) {
            "between the middles of its two wheels; absent: it has one wheel");
   v.choice("driven", &A::driven, Need::optional, "no: its wheels roll freely");
   v.choice("steered", &A::steered, Need::optional, "whether it is turned to keep the vehicle on its line");
+  v.number("largest_steer", &A::largest_steer,
+           Measure{"deg", {.lower = 0.0, .upper = right_angle, .lower_open = true, .upper_open = true}}, Need::optional,
+           "of the middle between its wheels, to either side; absent: nothing stops it");
   v.number("lead", &A::lead, Measure{"-", {.lower = -1.0, .lower_open = true}}, Need::optional,
            "by how much its rim is faster than the drive line's");
   v.number("largest_torque", &A::largest_torque, Measure{"N m", above_zero}, Need::optional,
@@ -184,7 +193,7 @@ void describe(Visitor& v, std::type_identity<VehicleCase>) {
   v.choice("drive_line", &V::drive_line, Need::optional, "how the wheels are driven");
   v.number("power", &V::power, Measure{"kW", above_zero}, Need::optional, "that reaches the wheels at most");
   v.group("motor", &V::motor, Need::optional,
-          "that turns the driven wheels, of the drive lines 'locked' and 'open_axles': torque against speed");
+          "that turns the driven wheels, but for the drive line 'motors': torque against speed");
   v.group("hitch", &V::hitch, Need::optional, "where what is pulled is hooked on; absent: on the ground, at x = 0");
   v.group("condition", &V::condition, Need::optional, "slope, speed and pull");
 }

@@ -57,6 +57,10 @@ std::size_t slopes_gone(const SteadyVehicles& vehicles, const VehicleCondition& 
 
 }  // namespace
 
+VehicleFailure as_failure(const VehicleGaveOut& error) {
+  return {error.why(), error.wheel(), error.why() == GaveOut::wheel ? error.what() : ""};
+}
+
 VehicleCondition heading_on(const VehicleCondition& asked, double slope, double heading) {
   VehicleCondition at = asked;
   at.slope = std::asin(std::sin(slope) * std::cos(heading));
@@ -101,27 +105,6 @@ GoMap go_map(const VehicleCase& question, const std::vector<VehicleWheel>& wheel
 namespace {
 
 constexpr double steepest_asked = 1.2;  // [rad] 69 deg
-
-VehicleFailure as_failure(const VehicleGaveOut& error) {
-  return {error.why(), error.wheel(), error.why() == GaveOut::wheel ? error.what() : ""};
-}
-
-VehicleNumbers steady_numbers(const SteadyVehicle& vehicle) {
-  VehicleNumbers all = {vehicle.slip, vehicle.pull, vehicle.power.into_wheels};
-  for (const SteadyWheel& wheel : vehicle.wheels) {
-    const TractionResult& r = wheel.result;
-    for (const double one : {wheel.normal_load, r.at.slip, r.drawbar_pull.value, r.torque.value, r.sinkage.value})
-      all.push_back(one);
-  }
-  return all;
-}
-
-SteadyErrors errors_from(const VehicleNumbers& errors) {
-  SteadyErrors all{errors[0], errors[1], errors[2], {}};
-  for (std::size_t i = 3; i + 4 < errors.size(); i += 5)
-    all.wheels.push_back({errors[i], errors[i + 1], errors[i + 2], errors[i + 3], errors[i + 4]});
-  return all;
-}
 
 /// Which way a slope is steep.
 enum class SlopeWay { up, down, across };
@@ -208,12 +191,9 @@ VehicleAnswers answers_of(const VehicleCase& question, const std::vector<Vehicle
   VehicleAnswers answers{question, wheels};
   const SteadyVehicles vehicles(question, wheels, model);
   const VehicleCondition& at = question.condition;
-  const std::size_t count = 3 + 5 * wheels.size();
   try {
     answers.steady = vehicles.pulling(at);
-    answers.errors = errors_from(errors_of(wheels, count, [&](const std::vector<VehicleWheel>& changed) {
-      return steady_numbers(SteadyVehicles(question, changed, model).pulling(at));
-    }));
+    answers.errors = errors_of_steady(question, wheels, model, at);
     if (question.power && answers.steady->power.into_wheels > 0.0)
       answers.power_speed = speed_at_power(*question.power, *answers.steady);
   } catch (const VehicleGaveOut& error) {

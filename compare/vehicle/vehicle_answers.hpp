@@ -62,11 +62,14 @@ struct VehicleFailure {
   std::string words{};                 ///< of the model, where it is the wheel's
 };
 
+VehicleFailure as_failure(const VehicleGaveOut& error);
+
 /// Standard errors of a steady state, to first order, from those of the soil's values and the carcass pressures.
 struct SteadyErrors {
   double slip = 0.0;         ///< [-]
   double pull = 0.0;         ///< [N]
   double into_wheels = 0.0;  ///< [W]
+  double steering = 0.0;     ///< [rad]
   struct Wheel {
     double normal_load = 0.0, slip = 0.0, drawbar_pull = 0.0, torque = 0.0, sinkage = 0.0;  ///< [SI]
   };

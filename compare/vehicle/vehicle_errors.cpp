@@ -29,4 +29,24 @@ VehicleNumbers errors_of(const std::vector<VehicleWheel>& wheels, std::size_t co
   return variance;
 }
 
+SteadyErrors errors_of_steady(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model,
+                              const VehicleCondition& at) {
+  constexpr std::size_t of_all = 4, of_wheel = 5;
+  const VehicleNumbers errors =
+      errors_of(wheels, of_all + of_wheel * wheels.size(), [&](const std::vector<VehicleWheel>& changed) {
+        const SteadyVehicle vehicle = SteadyVehicles(question, changed, model).pulling(at);
+        VehicleNumbers all = {vehicle.slip, vehicle.pull, vehicle.power.into_wheels, vehicle.steering};
+        for (const SteadyWheel& wheel : vehicle.wheels) {
+          const TractionResult& r = wheel.result;
+          for (const double one : {wheel.normal_load, r.at.slip, r.drawbar_pull.value, r.torque.value, r.sinkage.value})
+            all.push_back(one);
+        }
+        return all;
+      });
+  SteadyErrors all{errors[0], errors[1], errors[2], errors[3], {}};
+  for (std::size_t i = of_all; i < errors.size(); i += of_wheel)
+    all.wheels.push_back({errors[i], errors[i + 1], errors[i + 2], errors[i + 3], errors[i + 4]});
+  return all;
+}
+
 }  // namespace soilbin::compare

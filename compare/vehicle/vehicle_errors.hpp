@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "compare/vehicle/vehicle.hpp"
+#include "compare/vehicle/vehicle_answers.hpp"
 
 namespace soilbin::compare {
 
@@ -16,5 +16,9 @@ using VehicleNumbersOf = std::function<VehicleNumbers(const std::vector<VehicleW
 /// Standard errors of so many numbers: central differences over a thousandth of each standard deviation, the doubtful
 /// values taken as independent. Not a number where a vehicle beside this one has no balance.
 VehicleNumbers errors_of(const std::vector<VehicleWheel>& wheels, std::size_t count, const VehicleNumbersOf& numbers);
+
+/// Those of the steady vehicle in a condition.
+SteadyErrors errors_of_steady(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model,
+                              const VehicleCondition& at);
 
 }  // namespace soilbin::compare

@@ -14,13 +14,6 @@ bool has_wheel_motors(const VehicleCase& question) {
   return std::ranges::any_of(question.axles, [](const VehicleAxle& axle) { return axle.motor.has_value(); });
 }
 
-/// Whether power and the drive line's motor hold a steady state at its speed.
-bool holds(const VehicleCase& question, const SteadyVehicle& steady) {
-  if (has_wheel_motors(question)) return !question.power || steady.power.into_wheels <= *question.power;
-  const FastestTravel fastest = fastest_of(question, steady);
-  return !fastest.speed || fastest.speed->value >= steady.at.speed;
-}
-
 /// Rim speed beyond which no wheel's motor turns [m/s]; HUGE_VAL where one has no curve.
 double top_rim_speed(const VehicleCase& question) {
   double top = 0.0;
@@ -50,7 +43,7 @@ FastestTravel fastest_of_wheel_motors(const VehicleCase& question, const std::ve
     at.speed = speed;
     try {
       const SteadyVehicle steady = vehicles.pulling(at);
-      if (!holds(question, steady)) {
+      if (not_held_by(question, steady)) {
         beyond = TravelLimit::power;
         return false;
       }
@@ -89,6 +82,15 @@ bool is_limited(const VehicleCase& question) { return question.power || question
 
 double speed_at_power(double power, const SteadyVehicle& steady) {
   return power * steady.at.speed / steady.power.into_wheels;
+}
+
+std::optional<TravelLimit> not_held_by(const VehicleCase& question, const SteadyVehicle& steady) {
+  if (has_wheel_motors(question)) {
+    const bool held = !question.power || steady.power.into_wheels <= *question.power;
+    return held ? std::nullopt : std::optional(TravelLimit::power);
+  }
+  const FastestTravel fastest = fastest_of(question, steady);
+  return !fastest.speed || fastest.speed->value >= steady.at.speed ? std::nullopt : fastest.limit;
 }
 
 FastestTravel fastest_of(const VehicleCase& question, const SteadyVehicle& steady) {
@@ -143,7 +145,7 @@ Gradeability gradeability_of(const VehicleAnswers& answers, const Model& model) 
   const bool wheel_motors = has_wheel_motors(question);
   const auto goes = [&](double slope) {
     try {
-      return holds(question, vehicles.pulling(climbing(question.condition, slope)));
+      return !not_held_by(question, vehicles.pulling(climbing(question.condition, slope)));
     } catch (const VehicleGaveOut&) {
       return false;
     }

@@ -20,6 +20,9 @@ double speed_at_power(double power, const SteadyVehicle& steady);
 /// Effects that read the speed are taken at that of the state. Without an error; for a vehicle without motors of axles.
 FastestTravel fastest_of(const VehicleCase& question, const SteadyVehicle& steady);
 
+/// What of power and motors does not hold a steady state at its speed; none where they do.
+std::optional<TravelLimit> not_held_by(const VehicleCase& question, const SteadyVehicle& steady);
+
 /// The fastest travel in a condition: of a drive line by fastest_of, of a motor a wheel by bisection, since a motor at
 /// its limit leaves its share to the others. Without an error.
 FastestTravel fastest_travel(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model,

@@ -48,6 +48,17 @@ Document vehicle_on_soil(const VehicleCase& question, int map_samples, bool rigi
   });
 }
 
+Document turned_vehicle(const VehicleCase& question, std::optional<double> radius, std::optional<double> steer,
+                        bool rigid, bool no_lugs) {
+  if (radius && steer) throw InputError("give radius or steer, not both");
+  return unlocked([&]() -> Document {
+    std::vector<compare::VehicleWheel> wheels = wheels_with_tires(question);
+    Doubts notes = declare_tires(wheels, {.pressure = rigid, .lugs = no_lugs});
+    const compare::TurnAnswers answers = compare::turn_of(question, wheels, wheel_model(), {radius, steer});
+    return {compare::json_text(report_on(answers).data()), compare::in_words(doubts_about(answers, std::move(notes)))};
+  });
+}
+
 Document driven(const VehicleCase& question, int samples, bool rigid, bool no_lugs, const py::object& progress) {
   if (samples < 1) throw InputError("samples: 1 or more");
   Watch watch(progress);
@@ -125,6 +136,8 @@ void bind_vehicle(py::module_& module) {
       py::arg("name"), "A vehicle of the library, or of a YAML file. Raises InputError.");
   module.def("vehicle_on_soil", &vehicle_on_soil, py::arg("vehicle"), py::arg("map_samples"), py::arg("rigid"),
              py::arg("no_lugs"), py::arg("progress"), "Document and warnings; see soilbin.vehicle_on_soil.");
+  module.def("turn_vehicle", &turned_vehicle, py::arg("vehicle"), py::arg("radius"), py::arg("steer"), py::arg("rigid"),
+             py::arg("no_lugs"), "Document and warnings; see soilbin.turn_vehicle.");
   module.def("drive_vehicle", &driven, py::arg("vehicle"), py::arg("samples"), py::arg("rigid"), py::arg("no_lugs"),
              py::arg("progress"), "Document and warnings; see soilbin.drive_vehicle.");
 }

@@ -148,6 +148,35 @@ TEST(VehicleCommand, SaysHowFastAndHowSteepItsMotorLetsItGo) {
   EXPECT_THAT(fast.err, HasSubstr("it does not hold 1.00 m/s: the motors give no more torque"));
 }
 
+TEST(VehicleCommand, TellsTheTightestTurnAndWhatEndsIt) {
+  const Outcome run = soilbin("vehicle truck --turn");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out,
+              AllOf(HasSubstr("It turns: Radius "), HasSubstr("A tighter one: the steered wheels turn no further."),
+                    HasSubstr("slip angle"), HasSubstr("Add sidewall_bulldozing")));
+  const auto answer = soilbin("vehicle truck --turn --radius -20m --json").json();
+  EXPECT_EQ(answer.at("format"), "soilbin-vehicle-turn/1");
+  EXPECT_LT(answer.at("turn").at("steering").get<double>(), 0.0);
+  EXPECT_EQ(answer.at("turn").at("wheels").size(), 4u);
+  EXPECT_EQ(answer.at("end").at("limit"), "steering");
+  const Outcome tight = soilbin("vehicle truck --turn --radius 3m");
+  EXPECT_EQ(tight.status, 1);
+  EXPECT_THAT(tight.err, HasSubstr("does not turn so: "));
+}
+
+TEST(VehicleCommand, RefusesATurnThatIsNone) {
+  const auto told = [](const std::string& flags) {
+    const Outcome run = soilbin("vehicle truck " + flags);
+    EXPECT_EQ(run.status, 2) << flags;
+    return run.err;
+  };
+  EXPECT_THAT(told("--turn --slope 5deg"), HasSubstr("on a slope no turn is steady"));
+  EXPECT_THAT(told("--radius 5m"), HasSubstr("--turn"));
+  EXPECT_THAT(told("--turn --radius 5deg"), HasSubstr("--radius"));
+  EXPECT_THAT(told("--turn --radius 0m"), HasSubstr("a radius other than 0"));
+  EXPECT_THAT(told("--turn --drive"), HasSubstr("--turn"));
+}
+
 TEST(VehicleCommand, RefusesAMotorThatItCannotRead) {
   const Scratch scratch;
   const auto told = [&](const std::string& from, const std::string& to) {
