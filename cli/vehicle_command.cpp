@@ -22,7 +22,8 @@ namespace {
 struct VehicleOptions {
   std::string name, soil, density, map;
   unsigned samples = 50;
-  bool drive = false;
+  bool drive = false, turn = false;
+  std::string radius, steer;
   compare::TireLeftOut left_out;
   DescribedFlags<compare::VehicleCondition> condition;
   OutputFlags outputs;
@@ -48,6 +49,17 @@ int drive_in_time(const VehicleOptions& options, const compare::VehicleCase& que
       .status(done);
 }
 
+int turn_steadily(const VehicleOptions& options, const compare::VehicleCase& question,
+                  const std::vector<compare::VehicleWheel>& wheels, const Model& model, compare::Doubts notes,
+                  const Session& session) {
+  compare::TurnAsked asked;
+  if (!options.radius.empty()) asked.radius = read_flag("--radius", options.radius, {"m", any_value});
+  if (!options.steer.empty()) asked.steer = read_flag("--steer", options.steer, {"deg", inclines});
+  const compare::TurnAnswers answers = compare::turn_of(question, wheels, model, asked);
+  return publish(compare::report_on(answers), options.outputs, doubts_about(answers, std::move(notes)), session)
+      .status(done);
+}
+
 int vehicle(const VehicleOptions& options, const Session& session) {
   compare::VehicleCase question =
       compare::find_vehicle_case(options.name, session.place.library, session.place.effects);
@@ -58,6 +70,7 @@ int vehicle(const VehicleOptions& options, const Session& session) {
   compare::Doubts notes = declare_tires(wheels, options.left_out);
   const bekker_wong::BekkerWong model({.errors = false, .patch = false});
   if (options.drive) return drive_in_time(options, question, wheels, model, std::move(notes), session);
+  if (options.turn) return turn_steadily(options, question, wheels, model, std::move(notes), session);
   compare::VehicleAnswers answers = compare::answers_of(question, wheels, model);
   if (!options.map.empty())
     answers.map = compare::go_map(question, wheels, model,
@@ -87,17 +100,32 @@ void add_vehicle(CLI::App& app, Session& session) {
   CLI::Option* map = add_file(*command, "--map", options->map, "FILE.csv",
                               "the chance to go over slope and heading, by the soil's standard deviations");
   add_value(*command, "--samples", options->samples, "WHOLE", "soils that the map draws (50)")->needs(map);
+  CLI::Option* turn =
+      command->add_flag("--turn", options->turn, "the tightest steady turn on level ground, and what ends it")
+          ->excludes(map);
+  CLI::Option* radius =
+      add_value(*command, "--radius", options->radius, "m", "of the turn that is asked, to the left positive")
+          ->needs(turn);
+  add_value(*command, "--steer", options->steer, "deg",
+            "steering angle of the turn that is asked, to the left positive")
+      ->needs(turn)
+      ->excludes(radius);
   command
       ->add_flag("--drive", options->drive,
                  "in time, from rest: as the file's section 'drive' says, else for 30 s at the condition's speed")
-      ->excludes(map);
-  options->outputs.add_to(*command, {.json = "soilbin-vehicle-answer/1, in time soilbin-vehicle-drive/1; in SI",
-                                     .plot = "draw pull and sinkages against slip, or the drive against time",
-                                     .csv = "save pull and wheels against slip, or every sample of the drive"});
+      ->excludes(map)
+      ->excludes(turn);
+  options->outputs.add_to(*command, {.json = "soilbin-vehicle-answer/1, in a turn soilbin-vehicle-turn/1, in time "
+                                             "soilbin-vehicle-drive/1; in SI",
+                                     .plot = "draw pull and sinkages against slip, turns against their radius, or the "
+                                             "drive against time",
+                                     .csv = "save pull and wheels against slip, the wheels in the turn, or every "
+                                            "sample of the drive"});
   command->footer(
       "Exit status 1 where the vehicle does not travel in the condition that is asked, in time where it does not stand "
       "at its start.\n"
       "Examples: soilbin vehicle truck --slope 5deg --pull 2kN\n"
+      "          soilbin vehicle truck --turn --radius 12m\n"
       "          soilbin vehicle rover --drive --slope 10deg --report climb.html");
   command->callback([=, &session] { session.action = [=, &session] { return vehicle(*options, session); }; });
 }

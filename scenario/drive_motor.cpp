@@ -2,32 +2,42 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scenario/errors.hpp"
 
 namespace soilbin {
 
 Motor::Motor(const Controller& controller, double radius, double swung, double hold, std::optional<double> power,
-             std::optional<Halt> halt)
+             std::optional<Halt> halt, std::optional<GearedMotor> geared)
     : controller_(controller),
       radius_(radius),
       hold_(hold),
       proportional_(swung / controller.response),
       integral_(proportional_ / (4 * controller.response)),  // critically damped where the wheel doesn't slip
       power_(power),
-      halt_(halt) {}
+      halt_(halt),
+      geared_(std::move(geared)) {}
 
 void Motor::require_hold() const {
-  if (controller_.highest_torque && std::abs(hold_) > *controller_.highest_torque)
+  if ((controller_.highest_torque && std::abs(hold_) > *controller_.highest_torque) ||
+      (geared_ && hold_ > torque_at_wheels(*geared_, 0.0)))
     throw NoSolution("the motor's highest torque can't hold the wheel at rest where the drive begins");
 }
 
 Motor::Limits Motor::limits(double spin) const {
   const double most = controller_.highest_torque.value_or(HUGE_VAL);
-  if (!power_) return {-most, most};
-  constexpr double standing = 1e-3;  // [rad/s]
-  const double driven = std::min(most, *power_ / std::max(std::abs(spin), standing));
-  return spin >= 0.0 ? Limits{-most, driven} : Limits{-driven, most};
+  if (!power_ && !geared_) return {-most, most};
+  double driven = most, held = most;  // that it drives with; that it stops a wheel with that rolls back
+  if (power_) {
+    constexpr double standing = 1e-3;  // [rad/s]
+    driven = std::min(most, *power_ / std::max(std::abs(spin), standing));
+  }
+  if (geared_) {
+    driven = std::min(driven, torque_at_wheels(*geared_, std::abs(spin)));
+    held = std::min(held, torque_at_wheels(*geared_, 0.0));
+  }
+  return spin >= 0.0 ? Limits{-most, driven} : Limits{-driven, held};
 }
 
 double Motor::share(double time) const {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "scenario/drive.hpp"
+#include "scenario/geared_motor.hpp"
 
 namespace soilbin {
 
@@ -23,11 +24,11 @@ class Motor {
  public:
   /// `swung`: inertia that the controller is laid out for, I + m r^2 [kg m^2]; `hold`: torque at rest [N m]; `power`:
   /// that it gives at most [W], whatever the controller asks; it may brake with more; `halt`: where it stops on the
-  /// way.
+  /// way; `geared`: whose torque curve limits it at its spin, but for braking.
   Motor(const Controller& controller, double radius, double swung, double hold, std::optional<double> power = {},
-        std::optional<Halt> halt = {});
+        std::optional<Halt> halt = {}, std::optional<GearedMotor> geared = {});
 
-  /// Throws NoSolution where the highest torque is less than the torque at rest.
+  /// Throws NoSolution where the highest torque, or that of the curve, is less than the torque at rest.
   void require_hold() const;
 
   /// M [N m] at a spin [rad/s] and an error integral [rad].
@@ -52,6 +53,7 @@ class Motor {
   double radius_, hold_, proportional_, integral_;
   std::optional<double> power_;
   std::optional<Halt> halt_;
+  std::optional<GearedMotor> geared_;
 };
 
 }  // namespace soilbin

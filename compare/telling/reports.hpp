@@ -56,6 +56,7 @@ struct ModelAnswers;
 struct Prediction;
 struct Reproduction;
 struct SlipMap;
+struct TurnAnswers;
 struct VehicleAnswers;
 struct WheelFmu;
 struct WheelLimits;
@@ -89,6 +90,7 @@ Report report_on(const cone_index::Mobility& mobility, const std::string& soil);
 
 /// A vehicle on a soil: whether it travels, how steep, each wheel, power, pull against slip; soilbin-vehicle-answer/1.
 Report report_on(const VehicleAnswers& answers);
+Report report_on(const TurnAnswers& answers);
 /// A vehicle driven in time: how it ended and which axle gave out; soilbin-vehicle-drive/1.
 Report report_on(const DrivenAnswers& answers);
 /// A row for each slope and heading.

@@ -1,4 +1,4 @@
-// A vehicle on soil as it is told: soilbin-vehicle-answer/1, and by its cone index soilbin-mobility/1.
+// A vehicle on soil as it is told; soilbin-vehicle-answer/1.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,44 +11,13 @@
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/telling/reports.hpp"
+#include "compare/telling/vehicle_words.hpp"
 #include "compare/vehicle/vehicle_answers.hpp"
-#include "cone_index/vehicle.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-constexpr double exact_error = 0.0;
-
-double told_error(double error) { return std::isfinite(error) ? error : exact_error; }
-
-std::string wheel_called(const VehicleAnswers& answers, const VehicleFailure& failure) {
-  return failure.wheel ? answers.wheels[*failure.wheel].name : "";
-}
-
-/// What gave out, without a full stop.
-std::string failure_in_words(const VehicleAnswers& answers, const VehicleFailure& failure) {
-  const std::string wheel = wheel_called(answers, failure);
-  switch (failure.why) {
-    case GaveOut::wheel:
-      return fmt::format("the wheel '{}' gives out: {}", wheel, failure.words);
-    case GaveOut::pull:
-      return fmt::format("at every slip its wheels pull too little; the weakest for its load is '{}'", wheel);
-    case GaveOut::hold:
-      return fmt::format("the drive line does not hold it at any slip; the weakest wheel for its load is '{}'", wheel);
-    case GaveOut::tips_over:
-      return "it tips over";
-    case GaveOut::slides:
-      return "nothing balances the forces across its travel: it slides sideways";
-  }
-  return "";
-}
-
-const char* failure_word(GaveOut why) {
-  constexpr std::array words = {"wheel", "pull", "hold", "tips_over", "slides"};  // in the order of its values
-  return words[static_cast<std::size_t>(why)];
-}
 
 std::string condition_in_words(const VehicleCondition& at) {
   std::string words = fmt::format("slope {:.4g} deg", at.slope / degree);
@@ -67,6 +36,35 @@ std::string too_fast_in_words(const VehicleAnswers& answers) {
   return fmt::format("it does not hold {} m/s", number(answers.question.condition.speed, 3));
 }
 
+std::string speed_of(const Estimate& speed) { return number({speed.value, told_error(speed.std_error)}) + " m/s"; }
+
+/// How fast it goes and how steep it climbs at its speed, where a motor with a torque curve says so.
+void add_motor_verdicts(const VehicleAnswers& answers, std::vector<BackedSentence>& said) {
+  const auto& fastest = answers.fastest;
+  if (fastest && fastest->speed && fastest->limit != TravelLimit::power)
+    said.push_back(
+        {"Fastest", fmt::format("{}: {}.", speed_of(*fastest->speed), travel_limit_in_words(*fastest->limit))});
+  if (!answers.gradeability) return;
+  const std::string speed = number(answers.question.condition.speed, 3) + " m/s";
+  const auto& angle = answers.gradeability->angle;
+  said.push_back(
+      {"Climbs at its speed",
+       fmt::format(
+           "{}: {}.",
+           angle ? fmt::format("{} deg at {}", number({angle->value, told_error(angle->std_error)}, 1 / degree), speed)
+                 : "not even level ground at " + speed,
+           travel_limit_in_words(answers.gradeability->limit))});
+}
+
+Table climbs_table(const VehicleAnswers& answers) {
+  Table table{"Speed on slopes", {"slope [deg]", "fastest [m/s]", "what limits it"}, {false, false, true}};
+  for (const FastestTravel& one : answers.climbs)
+    table.add({number(one.slope / degree), one.speed ? number(one.speed->value) : "-",
+               one.limit ? travel_limit_in_words(*one.limit) : "nothing that the file declares"});
+  table.legend = "Straight up, with the pull that is asked.";
+  return table;
+}
+
 std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
   std::vector<BackedSentence> said;
   if (answers.steady) {
@@ -74,18 +72,20 @@ std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
     const bool kilo = std::abs(v.power.into_wheels) >= 1000.0;
     const double unit = kilo ? 1000.0 : 1.0;
     const char* prefix = kilo ? "k" : "";
-    if (!answers.holds_speed())
+    if (answers.not_held == TravelLimit::power)
       said.push_back(
           {capital(too_fast_in_words(answers)),
            fmt::format("That takes {} {}W at the wheels, and {} {}W reach them, enough for {} m/s.",
                        number({v.power.into_wheels, told_error(answers.errors.into_wheels)}, 1 / unit), prefix,
                        number(*answers.question.power / unit, 3), prefix, number(*answers.power_speed, 3))});
+    else if (!answers.holds_speed())
+      said.push_back({capital(too_fast_in_words(answers)), capital(travel_limit_in_words(*answers.not_held)) + "."});
     said.push_back({answers.holds_speed() ? "It travels" : "At that speed",
                     fmt::format("The drive line slips by {} %; the wheels take {} {}W, {} {}J a metre.",
                                 number({v.slip, told_error(answers.errors.slip)}, 100),
                                 number({v.power.into_wheels, told_error(answers.errors.into_wheels)}, 1 / unit), prefix,
                                 number(v.power.into_wheels / v.at.speed / unit, 3), prefix)});
-    if (answers.power_speed && answers.holds_speed())
+    if (answers.power_speed && answers.holds_speed() && answers.fastest->limit == TravelLimit::power)
       said.push_back({"Power", fmt::format("All of it is used at {} m/s.", number(*answers.power_speed, 3))});
     if (v.crab != 0.0)
       said.push_back(
@@ -99,8 +99,9 @@ std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
       said.push_back({"Yaw moment",
                       fmt::format("{} N m are left to turn it; no steered axle balances them.", number(v.yaw_moment))});
   } else {
-    said.push_back({"It does not travel", failure_in_words(answers, *answers.failure) + "."});
+    said.push_back({"It does not travel", failure_in_words(answers.wheels, *answers.failure) + "."});
   }
+  add_motor_verdicts(answers, said);
   said.push_back({"Steepest slopes", fmt::format("Up {}, down {}, across {}.", angle_of(answers.up),
                                                  angle_of(answers.down), angle_of(answers.across))});
   return said;
@@ -118,7 +119,7 @@ Table limits_of_vehicle(const VehicleAnswers& answers) {
   table.text_columns = {true, false, false, true};
   const auto add = [&](const char* way, const VehicleLimit& limit) {
     table.add({way, limit_in_words(limit), limit.angle ? number(100 * limit.slip) : "-",
-               limit.angle ? failure_in_words(answers, limit.beyond) : "beyond what was looked at, or none"});
+               limit.angle ? failure_in_words(answers.wheels, limit.beyond) : "beyond what was looked at, or none"});
   };
   add("up", answers.up);
   add("down", answers.down);
@@ -300,12 +301,6 @@ Sheet vehicle_sheet(const VehicleAnswers& answers) {
   return sheet;
 }
 
-Json failure_json(const VehicleAnswers& answers, const VehicleFailure& failure) {
-  return {{"why", failure_word(failure.why)},
-          {"wheel", failure.wheel ? Json(wheel_called(answers, failure)) : Json()},
-          {"text", failure_in_words(answers, failure)}};
-}
-
 Json wheel_json(const VehicleWheel& about, const SteadyWheel& wheel, const SteadyErrors::Wheel& e) {
   const TractionResult& r = wheel.result;
   const auto estimate = [](double value, double error) { return estimate_json({value, error}); };
@@ -331,8 +326,14 @@ Json limit_json(const VehicleAnswers& answers, const VehicleLimit& limit) {
   Json json = {{"slope", or_null(limit.angle)}};
   if (!limit.angle) return json;
   json["slip"] = limit.slip;
-  json["beyond"] = failure_json(answers, limit.beyond);
+  json["beyond"] = failure_json(answers.wheels, limit.beyond);
   return json;
+}
+
+Json fastest_json(const FastestTravel& fastest) {
+  return {{"slope", fastest.slope},
+          {"speed", or_null(fastest.speed)},
+          {"limit", fastest.limit ? Json(travel_limit_word(*fastest.limit)) : Json()}};
 }
 
 Json asked_of_vehicle_json(const VehicleCondition& at) {
@@ -378,18 +379,23 @@ Json vehicle_json(const VehicleAnswers& answers) {
                    {"soil", question.soil.name},
                    {"condition", asked_of_vehicle_json(question.condition)}};
   document["steady"] = answers.steady ? steady_vehicle_json(answers) : Json();
-  document["failure"] = answers.failure ? failure_json(answers, *answers.failure) : Json();
+  document["failure"] = answers.failure ? failure_json(answers.wheels, *answers.failure) : Json();
   document["speed_at_largest_power"] = or_null(answers.power_speed);
   document["holds_speed"] = answers.steady && answers.holds_speed();
   document["steepest"] = {{"up", limit_json(answers, answers.up)},
                           {"down", limit_json(answers, answers.down)},
                           {"across", limit_json(answers, answers.across)}};
+  document["fastest"] = answers.fastest ? fastest_json(*answers.fastest) : Json();
+  document["gradeability"] = answers.gradeability ? Json{{"slope", or_null(answers.gradeability->angle)},
+                                                         {"limit", travel_limit_word(answers.gradeability->limit)}}
+                                                  : Json();
+  document["climbs"] = list_of(answers.climbs, fastest_json);
   document["map"] = answers.map ? map_json(*answers.map) : Json();
   document["pulls"] = list_of(answers.pulls, [&](const VehiclePullRow& row) {
     Json json = {{"slip", row.slip}};
     json["pull"] = row.vehicle ? estimate_json({row.vehicle->pull, row.pull_error}) : Json();
     json["into_wheels"] = row.vehicle ? finite(row.vehicle->power.into_wheels) : Json();
-    if (row.failure) json["failure"] = failure_json(answers, *row.failure);
+    if (row.failure) json["failure"] = failure_json(answers.wheels, *row.failure);
     return json;
   });
   return document;
@@ -401,7 +407,8 @@ std::string vehicle_csv(const VehicleAnswers& answers) {
       "wheel_sinkage_m,wheel_contact_area_m2,error\n";
   for (const VehiclePullRow& row : answers.pulls) {
     if (!row.vehicle) {
-      text += fmt::format("{},,,,,,,,,,,{}\n", csv_number(row.slip), csv_cell(failure_in_words(answers, *row.failure)));
+      text += fmt::format("{},,,,,,,,,,,{}\n", csv_number(row.slip),
+                          csv_cell(failure_in_words(answers.wheels, *row.failure)));
       continue;
     }
     for (std::size_t i = 0; i < answers.wheels.size(); ++i) {
@@ -436,6 +443,7 @@ Report report_on(const VehicleAnswers& answers) {
   report.add(Sentences(vehicle_verdicts(answers)));
   report.add(WarningsHere());
   report.add("How steep", limits_of_vehicle(answers));
+  if (!answers.climbs.empty()) report.add("How fast", climbs_table(answers));
   if (answers.steady) {
     report.add("Wheel by wheel", wheels_table(answers));
     report.add("Power", power_table(*answers.steady));
@@ -452,131 +460,13 @@ Report report_on(const VehicleAnswers& answers) {
   if (const auto remarks = vehicle_remarks(answers); !remarks.empty()) report.add(Sentences(remarks));
   report.sheet = drawn_once([&] { return vehicle_sheet(answers); });
   report.add("Against slip", Figure(report.sheet, "Band: one standard error of the pull."));
-  if (answers.failure) report.no_answer = "does not travel: " + failure_in_words(answers, *answers.failure);
-  if (answers.steady && !answers.holds_speed()) report.no_answer = too_fast_in_words(answers) + ": too little power";
+  if (answers.failure) report.no_answer = "does not travel: " + failure_in_words(answers.wheels, *answers.failure);
+  if (answers.steady && !answers.holds_speed())
+    report.no_answer =
+        too_fast_in_words(answers) + ": " +
+        (answers.not_held == TravelLimit::power ? "too little power" : travel_limit_in_words(*answers.not_held));
   report.data = [&answers] { return vehicle_json(answers); };
   report.csv = [&answers] { return vehicle_csv(answers); };
-  return report;
-}
-
-// What a vehicle needs of a soft soil and what a soil leaves beyond it, as it is told; soilbin-mobility/1.
-
-namespace {
-
-using cone_index::Mobility;
-using cone_index::Passage;
-
-std::string kilopascals(const Estimate& pressure) { return number(pressure, 1e-3) + " kPa"; }
-
-std::string passes_in_words(const Passage& passage) { return passage.passes == 1 ? "1 pass" : "50 passes"; }
-
-/// "go; the rating cone index is 108 ± 30 kPa above the 191.6 kPa that the vehicle needs".
-std::vector<BackedSentence> verdicts_on(const Mobility& mobility) {
-  std::vector<BackedSentence> verdicts;
-  if (!mobility.passages) return verdicts;
-  for (const Passage& one : *mobility.passages)
-    verdicts.push_back(
-        {passes_in_words(one),
-         fmt::format("{}; the rating cone index is {} {} the {} that the vehicle needs", one.go ? "go" : "no go",
-                     kilopascals({std::abs(one.excess.value), one.excess.std_error}), one.go ? "above" : "below",
-                     kilopascals({one.needed, 0}))});
-  return verdicts;
-}
-
-Table needs_table(const Mobility& mobility) {
-  constexpr double psi = 6894.757293168361;
-  Table table{"", {"value", "kPa", "psi"}};
-  const auto add = [&](const char* name, double pressure) {
-    table.add({name, number(pressure / 1e3), number(pressure / psi)});
-  };
-  add("VCI1: rating cone index that 1 pass needs", mobility.index.one_pass);
-  add("VCI50: that 50 passes need", mobility.index.fifty_passes);
-  if (mobility.pressure) add("MMP: mean maximum pressure", mobility.pressure->value);
-  if (mobility.rating) add("RCI: rating cone index of the soil", mobility.rating->value);
-  return table;
-}
-
-Table factors_table(const Mobility& mobility) {
-  const cone_index::MobilityFactors& f = mobility.index.factors;
-  Table table{"", {"part", "value"}};
-  const std::pair<const char*, double> parts[] = {
-      {"CPF, contact pressure", f.contact_pressure},
-      {"WF, weight", f.weight},
-      {"TF, tire", f.tire},
-      {"GF, chains", f.grouser},
-      {"WLF, load a wheel", f.wheel_load},
-      {"CF, clearance", f.clearance},
-      {"EF, engine", f.engine},
-      {"TrF, transmission", f.transmission},
-      {"MI = (CPF WF/(TF GF) + WLF - CF) EF TrF", mobility.index.mobility_index},
-      {"DCF, deflection, on VCI1 alone", mobility.index.deflection_factor}};
-  for (const auto& [name, value] : parts) table.add({name, number(value)});
-  return table;
-}
-
-/// Where public sources disagree, or none could be read.
-std::vector<std::string> sources_in_words(const Mobility& mobility) {
-  std::vector<std::string> lines = {
-      "MI after FM 5-430-00-1 (1994), chapter 7, with WLF - CF added and TF below the line; some public codes "
-      "multiply, "
-      "or invert TF.",
-      "VCI1 with 3.74 in its last term, as Priddy and Willoughby (2006) print it; some codes have 2.14, which changes "
-      "it by 0.1 psi at MI = 20 and less above."};
-  if (mobility.pressure)
-    lines.push_back(
-        mobility.pressure->declared
-            ? fmt::format("MMP over deflection by diameter (Larminie 1992), with the K of {} that was given.",
-                          number(mobility.pressure->factor))
-            : fmt::format("MMP with Rowland's K for the driven axles, which belongs to deflection over section height; "
-                          "over the diameter it is {}. Both as commonly quoted.",
-                          number(mobility.pressure->factor)));
-  return lines;
-}
-
-Json mobility_json(const Mobility& mobility) {
-  const cone_index::VehicleConeIndex& index = mobility.index;
-  const cone_index::MobilityFactors& f = index.factors;
-  Json document = {{"format", "soilbin-mobility/1"},
-                   {"vehicle", mobility.vehicle.name},
-                   {"mobility_index", index.mobility_index},
-                   {"factors",
-                    {{"contact_pressure", f.contact_pressure},
-                     {"weight", f.weight},
-                     {"tire", f.tire},
-                     {"grouser", f.grouser},
-                     {"wheel_load", f.wheel_load},
-                     {"clearance", f.clearance},
-                     {"engine", f.engine},
-                     {"transmission", f.transmission},
-                     {"deflection", index.deflection_factor}}},
-                   {"vci1", index.one_pass},
-                   {"vci50", index.fifty_passes},
-                   {"mean_maximum_pressure", mobility.pressure ? Json(mobility.pressure->value) : Json()},
-                   {"mmp_factor", mobility.pressure ? Json(mobility.pressure->factor) : Json()},
-                   {"rating_cone_index", or_null(mobility.rating)}};
-  document["passages"] = Json::array();
-  if (mobility.passages)
-    for (const Passage& one : *mobility.passages)
-      document["passages"].push_back({{"passes", one.passes},
-                                      {"needed", one.needed},
-                                      {"excess", estimate_json(one.excess)},
-                                      {"go", one.go},
-                                      {"close", one.is_close()}});
-  return document;
-}
-
-}  // namespace
-
-Report report_on(const Mobility& mobility, const std::string& soil) {
-  const std::string name = mobility.vehicle.name.empty() ? "vehicle" : mobility.vehicle.name;
-  Report report{"Mobility: " + name, "Does the vehicle get through soft fine-grained soil?",
-                name + (soil.empty() ? "" : " on " + soil)};
-  report.add(Sentences(verdicts_on(mobility)));
-  report.add(WarningsHere());
-  report.add("Cone indices", needs_table(mobility));
-  report.add("Mobility index", factors_table(mobility));
-  report.add("Which source was taken", Items{sources_in_words(mobility)});
-  report.data = [&mobility] { return mobility_json(mobility); };
   return report;
 }
 

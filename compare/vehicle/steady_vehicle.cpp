@@ -13,77 +13,12 @@
 namespace soilbin::compare {
 namespace {
 
-double mean_of_places(const std::vector<double>& all) {
-  double sum = 0.0;
-  for (const double one : all) sum += one;
-  return sum / static_cast<double>(all.size());
-}
-
-/// Loads of the axles that stand, by k_i (a + b x_i), x_i from the middle of the springs: a at once, then b.
-std::vector<double> loads_of_standing(const std::vector<CarryingAxle>& axles, const std::vector<bool>& stands,
-                                      double normal, double pitch) {
-  double k = 0.0, kx = 0.0, first = 0.0;
-  for (std::size_t i = 0; i < axles.size(); ++i)
-    if (stands[i]) k += axles[i].stiffness, kx += axles[i].stiffness * axles[i].spring;
-  const double x0 = kx / k;
-  const double a = normal / k;
-  double spread = 0.0, widest = 0.0;
-  for (std::size_t i = 0; i < axles.size(); ++i) {
-    if (!stands[i]) continue;
-    const double lever = axles[i].spring - x0;
-    first += axles[i].stiffness * axles[i].place, spread += axles[i].stiffness * lever * axles[i].place;
-    widest = std::max(widest, std::abs(lever));
-  }
-  constexpr double in_one_place = 1e-9;
-  const double b = widest > in_one_place ? (pitch - a * first) / spread : 0.0;
-  std::vector<double> loads(axles.size(), 0.0);
-  for (std::size_t i = 0; i < axles.size(); ++i)
-    if (stands[i]) loads[i] = axles[i].stiffness * (a + b * (axles[i].spring - x0));
-  return loads;
-}
-
-}  // namespace
-
-SinkagePlane plane_through(const std::vector<VehiclePoint>& points) {
-  std::vector<double> xs, ys, zs;
-  for (const VehiclePoint& point : points) xs.push_back(point.x), ys.push_back(point.y), zs.push_back(point.z);
-  const double x0 = mean_of_places(xs), y0 = mean_of_places(ys), z0 = mean_of_places(zs);
-  double xx = 0.0, yy = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double x = xs[i] - x0, y = ys[i] - y0, z = zs[i] - z0;
-    xx += x * x, yy += y * y, xy += x * y, xz += x * z, yz += y * z;
-  }
-  constexpr double none = 1e-18;
-  const double determinant = xx * yy - xy * xy;
-  if (determinant > none) return {(xz * yy - yz * xy) / determinant, (yz * xx - xz * xy) / determinant};
-  return {xx > none ? xz / xx : 0.0, yy > none ? yz / yy : 0.0};
-}
-
-VehiclePoint tilted(const VehiclePoint& p, double nose_down, double left_down) {
-  const double s = std::sin(nose_down), c = std::cos(nose_down), t = std::sin(left_down), d = std::cos(left_down);
-  const double z = -p.y * t + p.z * d, y = p.y * d + p.z * t;
-  return {p.x * c + z * s, y, -p.x * s + z * c};
-}
-
-std::vector<double> axle_loads(const std::vector<CarryingAxle>& axles, double normal, double pitch) {
-  std::vector<bool> stands(axles.size(), true);
-  std::vector<double> loads = loads_of_standing(axles, stands, normal, pitch);
-  for (std::size_t left = axles.size(); left > 1; --left) {
-    const auto least = std::ranges::min_element(loads);
-    if (*least >= 0.0) break;
-    stands[static_cast<std::size_t>(least - loads.begin())] = false;
-    loads = loads_of_standing(axles, stands, normal, pitch);
-  }
-  return loads;
-}
-
-namespace {
-
 constexpr double aimed_residual = 1e-13;  // what the search for a balance aims at, as a share of the weight
 constexpr double good_residual = 1e-9;    // what counts as one
 constexpr double lifts = 1e-9;            // share of the weight below which a wheel is off the ground
 constexpr double most_braked = -0.95;     // a locked wheel has no speed ratio
 constexpr double scanned_slip = 0.05;
+constexpr double across = 1.5;  // [rad] 86 deg: a wheel that stands farther across its travel is about to roll backward
 
 /// An angle within 40 deg of straight on, from an unknown that has no bounds: two of them stay below 90 deg.
 double turn_of(double unknown) {
@@ -99,6 +34,10 @@ struct SteadyVehicles::Modes {
   double x0 = 0.0, y0 = 0.0;         ///< middle of the springs [m]
   double length = 0.0, width = 0.0;  ///< the farthest wheel from it [m]; 0: held as in a rig
   bool pitches = false, rolls = false, crabs = false, steers = false;
+  // In a turn:
+  double middle = 0.0;      ///< x of the line across the vehicle on which the turn's centre lies, without side slip [m]
+  double lever = 0.0;       ///< from there to the steered axle farthest from it; 0: its sides turn unlike [m]
+  double half_track = 0.0;  ///< mean distance of the wheels from the middle line [m]
 
   std::size_t count() const {
     return 1 + static_cast<std::size_t>(pitches) + static_cast<std::size_t>(rolls) + static_cast<std::size_t>(crabs) +
@@ -110,6 +49,56 @@ struct SteadyVehicles::Trial {
   SteadyVehicle vehicle{};
   std::vector<double> rest{};  ///< what is left of each balance, as a share of the weight
 };
+
+/// How each wheel moves in a turn, and in straight travel.
+struct SteadyVehicles::Turning {
+  std::vector<double> speeds{};    ///< of travel [m/s]
+  std::vector<double> headings{};  ///< of its travel, to the left of that of the centre of gravity [rad]
+  std::vector<double> steer{};     ///< of the wheel, to the left of the vehicle [rad]
+  std::vector<double> rims{};      ///< rim speed that is asked of it over that of the drive line, without leads
+};
+
+/// `vehicle` brings crab and steering beyond those of a turn without side slip, and gets them as they are.
+SteadyVehicles::Turning SteadyVehicles::turn(const VehicleCondition& at, const Modes& m, SteadyVehicle& vehicle) const {
+  const double curvature = at.curvature, x_g = vehicle_.centre_of_gravity.x, y_g = vehicle_.centre_of_gravity.y;
+  Turning all;
+  double steered_curvature = 0.0;  // of the turn to whose centre the steered wheels stand square
+  double unlike = 0.0;             // of the sides' rim speeds
+  if (curvature != 0.0) {
+    vehicle.crab -= std::asin(std::clamp(curvature * (x_g - m.middle), -0.9, 0.9));
+    const double straight_on = curvature / std::cos(vehicle.crab);
+    constexpr double farthest = 1.5;  // [rad]
+    if (m.lever != 0.0) {
+      vehicle.steering = std::clamp(vehicle.steering + std::atan(straight_on * m.lever), -farthest, farthest);
+      steered_curvature = std::tan(vehicle.steering) / m.lever;
+    } else {
+      unlike = std::exchange(vehicle.steering, 0.0) + straight_on * m.half_track;
+    }
+  }
+  const double c = std::cos(vehicle.crab), s = std::sin(vehicle.crab);
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    const VehicleWheel& wheel = wheels_[i];
+    const double dx = wheel.place.x - x_g, dy = wheel.place.y - y_g;
+    const double forward = 1.0 - curvature * (dx * s + dy * c), left = curvature * (dx * c - dy * s);  // over the speed
+    all.speeds.push_back(at.speed * std::hypot(forward, left));
+    all.headings.push_back(std::atan2(left, forward));
+    const bool steered = vehicle_.axles[wheel.axle].steered == YesNo::yes;
+    all.steer.push_back(!steered           ? 0.0
+                        : curvature == 0.0 ? vehicle.steering
+                                           : std::atan2(steered_curvature * (wheel.place.x - m.middle),
+                                                        1.0 - steered_curvature * (wheel.place.y - m.y0)));
+    double rim = 1.0;
+    if (curvature != 0.0 && m.lever == 0.0) {
+      constexpr double slowest = 1e-3;
+      const double side = wheel.place.y > m.y0 ? 1.0 : wheel.place.y < m.y0 ? -1.0 : 0.0;
+      rim = std::max(1.0 - side * unlike, slowest);
+    } else if (curvature != 0.0 && vehicle_.drive_line == DriveLine::motors) {
+      rim = std::hypot(forward, left);
+    }
+    all.rims.push_back(rim);
+  }
+  return all;
+}
 
 double SteadyVehicles::weight() const { return vehicle_.mass * gravity_of(vehicle_.soil); }
 
@@ -128,9 +117,20 @@ SteadyVehicles::Modes SteadyVehicles::modes(const VehicleCondition& at) const {
   constexpr double in_one_place = 1e-9;
   m.pitches = m.length > in_one_place, m.rolls = m.width > in_one_place;
   const bool lopsided = vehicle_.centre_of_gravity.y != m.y0 || vehicle_.hitch.at.y != 0.0;
+  const auto steered = [](const VehicleAxle& axle) { return axle.steered == YesNo::yes; };
   m.crabs = m.pitches && (at.cross_slope != 0.0 || (m.rolls && lopsided));
-  m.steers = m.crabs &&
-             std::ranges::any_of(vehicle_.axles, [](const VehicleAxle& axle) { return axle.steered == YesNo::yes; });
+  m.steers = m.crabs && std::ranges::any_of(vehicle_.axles, steered);
+  if (at.curvature == 0.0) return m;
+  m.crabs = m.steers = true;
+  const bool all_steered = std::ranges::all_of(vehicle_.axles, steered);
+  double held = 0.0;
+  for (const VehicleAxle& axle : vehicle_.axles)
+    if (all_steered || !steered(axle)) m.middle += axle.x, held += 1.0;
+  m.middle /= held;
+  for (const VehicleAxle& axle : vehicle_.axles)
+    if (steered(axle) && std::abs(axle.x - m.middle) > std::abs(m.lever)) m.lever = axle.x - m.middle;
+  for (const VehicleWheel& wheel : wheels_)
+    m.half_track += std::abs(wheel.place.y - m.y0) / static_cast<double>(wheels_.size());
   return m;
 }
 
@@ -149,13 +149,14 @@ SteadyWheel SteadyVehicles::rolled(std::size_t wheel, const OperatingCondition& 
   return steady;
 }
 
-/// The wheel at the slip next to `from` at which its torque is this one; looks up where it is less there, else down.
-SteadyWheel SteadyVehicles::free(std::size_t wheel, OperatingCondition at, double torque, double from) const {
+/// Looks up where its torque is less there, else down.
+SteadyWheel SteadyVehicles::free(std::size_t wheel, OperatingCondition at, const std::function<double(double)>& torque,
+                                 double from) const {
   SteadyWheel steady;
   const auto missing = [&](double slip) {
     at.slip = slip;
     steady = rolled(wheel, at);
-    return steady.result.torque.value - torque;
+    return steady.result.torque.value - torque(slip);
   };
   double here = from, f = missing(here);
   if (steady.lifted || f == 0.0) return steady;
@@ -171,18 +172,20 @@ SteadyWheel SteadyVehicles::free(std::size_t wheel, OperatingCondition at, doubl
     here = next, f = g;
   }
   throw VehicleGaveOut(GaveOut::wheel, wheel,
-                       torque == 0.0 ? "no slip at which it rolls freely" : "no slip gives its torque");
+                       torque(end) == 0.0 ? "no slip at which it rolls freely" : "no slip gives its torque");
 }
 
-void SteadyVehicles::roll_axle(std::size_t axle, double slip, std::vector<OperatingCondition>& at,
+void SteadyVehicles::roll_axle(std::size_t axle, double slip, const Rims& rims, std::vector<OperatingCondition>& at,
                                std::vector<SteadyWheel>& wheels) const {
   const VehicleAxle& about = vehicle_.axles[axle];
   std::vector<std::size_t> mine;
   for (std::size_t i = 0; i < wheels_.size(); ++i)
     if (wheels_[i].axle == axle) mine.push_back(i);
+  const auto no_torque = [](double) { return 0.0; };
   /// The slip at a rim speed `faster` times that of the drive line.
   const auto slip_at = [&](std::size_t i, double faster) {
-    const double share = std::cos(at[i].yaw) / ((1.0 + about.lead) * faster);
+    const double share =
+        std::cos(at[i].yaw) * (at[i].speed / rims.travel) / ((1.0 + about.lead) * rims.asked[i] * faster);
     return share == 1.0 ? slip : std::max(slip_of_ratio(speed_ratio(slip) * share), most_braked);
   };
   const auto roll = [&](std::size_t i, double faster) {
@@ -191,11 +194,11 @@ void SteadyVehicles::roll_axle(std::size_t axle, double slip, std::vector<Operat
     return wheels[i].result.torque.value;
   };
   if (about.driven == YesNo::no) {
-    for (const std::size_t i : mine) wheels[i] = free(i, at[i], 0.0, 0.0);
+    for (const std::size_t i : mine) wheels[i] = free(i, at[i], no_torque, 0.0);
   } else if (vehicle_.drive_line == DriveLine::open_axles && mine.size() == 2) {
     const std::size_t left = mine[0], right = mine[1];
     if (at[left].load <= 0.0 || at[right].load <= 0.0) {  // a wheel in the air takes no torque, nor does the other
-      for (const std::size_t i : mine) wheels[i] = free(i, at[i], 0.0, 0.0);
+      for (const std::size_t i : mine) wheels[i] = free(i, at[i], no_torque, 0.0);
       return;
     }
     const auto unlike = [&](double d) { return roll(left, 1.0 + d) - roll(right, 1.0 - d); };
@@ -216,11 +219,17 @@ void SteadyVehicles::roll_axle(std::size_t axle, double slip, std::vector<Operat
     throw VehicleGaveOut(GaveOut::wheel, direction > 0 ? left : right,
                          "its differential turns it without end: it takes less torque than the other wheel");
   } else {
-    for (const std::size_t i : mine)
-      if (roll(i, 1.0) > about.largest_torque.value_or(HUGE_VAL)) {
-        wheels[i] = free(i, at[i], *about.largest_torque, at[i].slip);
+    for (const std::size_t i : mine) {
+      const auto largest = [&, in_plane = at[i].speed * std::cos(at[i].yaw)](double at_slip) {
+        if (!about.motor) return about.largest_torque.value_or(HUGE_VAL);
+        const double spin = in_plane / speed_ratio(at_slip) / about.tire.radius;
+        return spin > top_spin(*about.motor) ? 0.0 : torque_at_wheels(*about.motor, spin);
+      };
+      if (roll(i, 1.0) > largest(at[i].slip)) {
+        wheels[i] = free(i, at[i], largest, at[i].slip);
         wheels[i].at_largest_torque = true;
       }
+    }
   }
 }
 
@@ -233,28 +242,33 @@ SteadyVehicles::Trial SteadyVehicles::trial(const VehicleCondition& at, double s
   const double pitched = m.pitches ? x[next++] : 0.0, rolled_over = m.rolls ? x[next++] : 0.0;
   v.crab = m.crabs ? turn_of(x[next++]) : 0.0, v.steering = m.steers ? turn_of(x[next++]) : 0.0;
   const double G = weight(), a = at.slope, b = at.cross_slope;
+  const double centrifugal = vehicle_.mass * at.speed * at.speed * at.curvature;  // to the right
+  const Turning turning = turn(at, m, v);
+  Rims rims{at.speed, turning.rims};
   std::vector<OperatingCondition> conditions;
-  for (const VehicleWheel& wheel : wheels_) {
-    const VehicleAxle& axle = vehicle_.axles[wheel.axle];
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    const VehicleWheel& wheel = wheels_[i];
     double share = x[0];
     if (m.pitches) share += pitched * (wheel.place.x - m.x0) / m.length;
     if (m.rolls) share += rolled_over * (wheel.place.y - m.y0) / m.width;
-    const double load = G * (axle.stiffness.value_or(1.0) / m.stiffness) * share;
+    const double load = G * (vehicle_.axles[wheel.axle].stiffness.value_or(1.0) / m.stiffness) * share;
     conditions.push_back({.load = load > lifts * G ? load : 0.0,
-                          .speed = at.speed,
+                          .speed = turning.speeds[i],
                           .longitudinal_incline = a,
                           .transverse_incline = b,
-                          .yaw = v.crab + (axle.steered == YesNo::yes ? v.steering : 0.0),
+                          .yaw = std::clamp(v.crab + turning.steer[i] - turning.headings[i], -across, across),
                           .pass = wheel.pass});
   }
   v.wheels.resize(wheels_.size());
-  for (std::size_t axle = 0; axle < vehicle_.axles.size(); ++axle) roll_axle(axle, slip, conditions, v.wheels);
+  for (std::size_t axle = 0; axle < vehicle_.axles.size(); ++axle) roll_axle(axle, slip, rims, conditions, v.wheels);
 
   double pull = 0.0, left = 0.0, load = 0.0;
   std::vector<VehiclePoint> sunk;
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     const TractionResult& r = v.wheels[i].result;
-    pull += r.drawbar_pull.value, left += r.lateral_force.value, load += r.at.load;
+    const GroundForce net = turned({r.drawbar_pull.value, r.lateral_force.value}, turning.headings[i],
+                                   ForceFrame::wheel, ForceFrame::travel);
+    pull += net.forward, left += net.left, load += r.at.load;
     if (!v.wheels[i].lifted) sunk.push_back({wheels_[i].place.x, wheels_[i].place.y, r.sinkage.value});
   }
   const double along = std::sin(a), across = std::cos(a) * std::sin(b), up = std::cos(a) * std::cos(b);
@@ -268,7 +282,7 @@ SteadyVehicles::Trial SteadyVehicles::trial(const VehicleCondition& at, double s
     return turned({forward, to_left}, v.crab, ForceFrame::travel, ForceFrame::wheel);
   };
   Wrench sum;
-  sum.add(place(vehicle_.centre_of_gravity), along_vehicle(-G * along, -G * across), -G * up);
+  sum.add(place(vehicle_.centre_of_gravity), along_vehicle(-G * along, -G * across - centrifugal), -G * up);
   sum.add(place(vehicle_.hitch.at), along_vehicle(-v.pull * std::cos(vehicle_.hitch.angle), 0.0),
           -v.pull * std::sin(vehicle_.hitch.angle));
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
@@ -276,32 +290,35 @@ SteadyVehicles::Trial SteadyVehicles::trial(const VehicleCondition& at, double s
     const TractionResult& r = wheel.result;
     wheel.normal_load = r.at.load * up;
     const double forward = r.drawbar_pull.value + r.at.load * along, torque = r.torque.value;
-    const double turn = r.at.yaw - v.crab;
+    const double steer = wheel.steer = r.at.yaw - v.crab + turning.headings[i];
     const GroundForce soil =
         turned({forward, r.lateral_force.value + r.at.load * across}, r.at.yaw, ForceFrame::travel, ForceFrame::wheel);
     const auto from_wheel = [&](const GroundForce& force) {
-      return turned(force, turn, ForceFrame::wheel, ForceFrame::travel);
+      return turned(force, steer, ForceFrame::wheel, ForceFrame::travel);
     };
     VehiclePoint ground = wheels_[i].place;
     ground.z = 0.0;
     sum.add(place(wheels_[i].place), from_wheel({soil.forward, 0.0}), wheel.normal_load);
     sum.add(place(ground), from_wheel({0.0, soil.left}), 0.0);
-    sum.pitch -= torque * std::cos(turn), sum.roll += torque * std::sin(turn);
+    sum.pitch -= torque * std::cos(steer), sum.roll += torque * std::sin(steer);
     if (wheel.lifted) continue;
-    const double in_plane = at.speed * std::cos(r.at.yaw), rim = torque / wheels_[i].scenario.tire.radius;
+    const double in_plane = r.at.speed * std::cos(r.at.yaw), rim = torque / wheels_[i].scenario.tire.radius;
     wheel.rim_speed = in_plane / speed_ratio(r.at.slip);
     wheel.power_in = torque == 0.0 ? 0.0 : rim * wheel.rim_speed;
     wheel.slip_loss = torque == 0.0 ? 0.0 : rim * (wheel.rim_speed - in_plane);
-    wheel.soil_loss = rim * in_plane - forward * at.speed;
+    wheel.soil_loss = rim * in_plane - forward * r.at.speed;
     v.power.into_wheels += wheel.power_in, v.power.slip_loss += wheel.slip_loss, v.power.soil_loss += wheel.soil_loss;
   }
-  v.power.drawbar = v.pull * std::cos(vehicle_.hitch.angle) * at.speed, v.power.climbing = G * along * at.speed;
+  const VehiclePoint &centre = vehicle_.centre_of_gravity, &hitch = vehicle_.hitch.at;
+  const double hitch_left = (hitch.x - centre.x) * std::sin(v.crab) + (hitch.y - centre.y) * std::cos(v.crab);
+  const double hitch_speed = at.speed * (1.0 - at.curvature * hitch_left);
+  v.power.drawbar = v.pull * std::cos(vehicle_.hitch.angle) * hitch_speed, v.power.climbing = G * along * at.speed;
   v.yaw_moment = sum.yaw;
 
   trial.rest.push_back((load - G - v.pull * std::sin(vehicle_.hitch.angle) / up) / G);
   if (m.pitches) trial.rest.push_back(sum.pitch / (G * m.length));
   if (m.rolls) trial.rest.push_back(sum.roll / (G * m.width));
-  if (m.crabs) trial.rest.push_back((left + (load - G) * across) / G);
+  if (m.crabs) trial.rest.push_back((left + (load - G) * across - centrifugal) / G);
   if (m.steers) trial.rest.push_back(sum.yaw / (G * m.length));
   return trial;
 }
@@ -312,10 +329,20 @@ SteadyVehicle SteadyVehicles::at_slip(const VehicleCondition& at, double slip) c
   const Modes m = modes(at);
   std::vector<double> start(m.count(), 0.0);
   start[0] = 1.0;
-  const gsl::SystemRoot root = gsl::system_root(
-      [&](std::span<const double> x, std::span<double> f) { std::ranges::copy(trial(at, slip, m, x).rest, f.begin()); },
-      std::move(start), aimed_residual);
+  const auto rest = [&](std::span<const double> x, std::span<double> f) {
+    constexpr double far_off = 10.0;  // shares of the weight: the search takes a shorter step
+    try {
+      std::ranges::copy(trial(at, slip, m, x).rest, f.begin());
+    } catch (const VehicleGaveOut&) {
+      if (at.curvature == 0.0) throw;
+      std::ranges::fill(f, far_off);
+    }
+  };
+  const gsl::SystemRoot root = gsl::system_root(rest, std::move(start), aimed_residual);
   SteadyVehicle found = trial(at, slip, m, root.x).vehicle;
+  for (std::size_t i = 0; i < found.wheels.size(); ++i)
+    if (std::abs(found.wheels[i].result.at.yaw) >= across)
+      throw VehicleGaveOut(GaveOut::backward, i, "it would have to roll backward or straight across");
   if (root.residual <= good_residual) return found;
   if (std::ranges::any_of(found.wheels, &SteadyWheel::lifted))
     throw VehicleGaveOut(GaveOut::tips_over, std::nullopt, "it tips over");
@@ -358,6 +385,7 @@ SteadyVehicle SteadyVehicles::pulling(const VehicleCondition& at) const {
   const auto missing = [&](double slip) { return at_slip(at, slip).pull - at.pull; };
   std::optional<VehicleGaveOut> said;
   gsl::Sample before, first;
+  double silent = 0.0;                  // the last slip without a balance before the first one with
   bool answered = false, ever = false;  // just before, and at any slip
   const auto root = [&](double from, double to) {
     const double slip = gsl::bracketed_root(missing, std::min(from, to), std::max(from, to), 1e-13, 1e-12 * weight(),
@@ -379,17 +407,33 @@ SteadyVehicle SteadyVehicles::pulling(const VehicleCondition& at) const {
     } catch (const VehicleGaveOut& error) {
       if (!said) said = error;
       answered = false;
+      if (!ever) silent = slip;
       if (direction == 0.0) direction = 1.0;
     }
   }
   if (!ever) throw VehicleGaveOut(*said);
+  // In a tight turn the smallest slips may have no balance: where the first one with pulls too much, on toward them.
+  double enough = first.x;
+  constexpr double close = 1e-4;
+  while (said && first.f > 0.0 && enough - silent > close) {
+    const double slip = 0.5 * (silent + enough);
+    try {
+      if (missing(slip) <= 0.0) return root(slip, enough);
+      enough = slip;
+    } catch (const VehicleGaveOut&) {
+      silent = slip;
+    }
+  }
   const bool braked = direction < 0.0;
   const SteadyVehicle most = at_most(at, braked);  // it may lie between two of the slips above
   if (first.f < 0.0 && most.pull >= at.pull) return root(first.x, most.slip);
   if (first.f > 0.0 && most.pull <= at.pull) return root(first.x, most.slip);
   if (said) throw VehicleGaveOut(*said);
-  throw VehicleGaveOut(braked ? GaveOut::hold : GaveOut::pull, weakest_wheel(most),
-                       braked ? "its braked wheels do not hold it" : "its wheels pull too little at every slip");
+  const GaveOut why = why_too_little(most, braked);
+  throw VehicleGaveOut(why, weakest_wheel(most),
+                       braked                   ? "its braked wheels do not hold it"
+                       : why == GaveOut::torque ? "its motors give too little torque at every slip"
+                                                : "its wheels pull too little at every slip");
 }
 
 std::size_t weakest_wheel(const SteadyVehicle& vehicle) {
@@ -400,6 +444,11 @@ std::size_t weakest_wheel(const SteadyVehicle& vehicle) {
   for (std::size_t i = 1; i < vehicle.wheels.size(); ++i)
     if (share(vehicle.wheels[i]) < share(vehicle.wheels[weakest])) weakest = i;
   return weakest;
+}
+
+GaveOut why_too_little(const SteadyVehicle& most, bool braked) {
+  if (braked) return GaveOut::hold;
+  return std::ranges::any_of(most.wheels, &SteadyWheel::at_largest_torque) ? GaveOut::torque : GaveOut::pull;
 }
 
 }  // namespace soilbin::compare

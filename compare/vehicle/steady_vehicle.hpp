@@ -6,6 +6,7 @@
 //   climbs.slip, climbs.wheels[0].result.at.load                                    // [-], [N]
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -60,9 +61,11 @@ std::vector<double> axle_loads(const std::vector<CarryingAxle>& axles, double no
 enum class GaveOut {
   wheel,      ///< the model has no answer for one of its wheels
   pull,       ///< all its wheels together pull less than is asked of them, at every slip
+  torque,     ///< so do they where motors give no more
   hold,       ///< braked by its drive line it runs away downhill, at every slip
   tips_over,  ///< it stands on the wheels of one side alone
   slides,     ///< nothing balances the forces across its travel
+  backward,   ///< a wheel of a turn would roll backward
 };
 
 /// There is no steady vehicle.
@@ -80,13 +83,14 @@ class VehicleGaveOut : public NoSolution {
 
 struct SteadyWheel {
   TractionResult result{};         ///< as the model answers; `at` holds its load, slip, yaw and pass
+  double steer = 0.0;              ///< its plane, to the left of the vehicle [rad]
   double normal_load = 0.0;        ///< normal to the ground [N]
   double rim_speed = 0.0;          ///< r w [m/s]
   double power_in = 0.0;           ///< M w [W]
   double slip_loss = 0.0;          ///< (M/r) (r w - v) [W], v: its speed in its own plane
   double soil_loss = 0.0;          ///< (M/r) v less what pushes the vehicle along its travel, times its speed [W]
   bool lifted = false;             ///< off the ground: no forces
-  bool at_largest_torque = false;  ///< its motor gives no more
+  bool at_largest_torque = false;  ///< its motor gives no more, or turns no faster
 };
 
 /// Powers add up: into the wheels = drawbar + climbing + slip loss + soil loss.
@@ -103,7 +107,8 @@ struct SteadyVehicle {
   double slip = 0.0;        ///< of the drive line: by its mean rim speed
   double pull = 0.0;        ///< left at the hitch, along travel [N]
   double crab = 0.0;        ///< by which the vehicle points to the left of its travel [rad]
-  double steering = 0.0;    ///< of the steered axles, to the left of the vehicle [rad]
+  double steering = 0.0;    ///< of the steered axles, to the left of the vehicle [rad]; in a turn of the middle of the
+                            ///< one farthest from the axles that are not
   double yaw_moment = 0.0;  ///< that nothing balances: a driver's hand must [N m], to the left positive
   double nose_down = 0.0;   ///< of the vehicle against the ground, by its wheels' sinkages [rad]
   double left_down = 0.0;   ///< [rad]
@@ -122,7 +127,9 @@ struct SteadyVehicle {
 /// shift loads by what they do to torque and pull, and unlike sinkages tilt the vehicle. The moment of the soil about a
 /// wheel's upright (self-aligning) is left out. Of two axles with wheels on both sides this gives the textbook's loads
 /// (Wong, Theory of Ground Vehicles, ch. 3). On a cross slope the vehicle crabs, and steered axles turn, until nothing
-/// is left across its travel. Wheels in one axle alone keep their pitch as in a rig, and those in one track their roll.
+/// is left across its travel. In a turn each wheel travels as its place on the body does, steered wheels stand square
+/// to one centre (Ackermann), where no axle is steered the sides' rim speeds differ, and the balance across holds the
+/// centrifugal force too. Wheels in one axle alone keep their pitch as in a rig, and those in one track their roll.
 /// Solved by gsl::system_root for each slip of the drive line.
 class SteadyVehicles {
  public:
@@ -148,14 +155,23 @@ class SteadyVehicles {
  private:
   struct Trial;
   struct Modes;
+  struct Turning;
+  /// Rim speeds that are asked of the wheels over that of the drive line, which travels so fast [m/s].
+  struct Rims {
+    double travel = 0.0;
+    std::vector<double> asked{};
+  };
+  Turning turn(const VehicleCondition& at, const Modes& modes, SteadyVehicle& vehicle) const;
   Modes modes(const VehicleCondition& at) const;
   /// The largest slip that is looked at. At 100 % a drive line turns without end: across an open axle no wheel could
   /// then turn slower than the other.
   double fastest() const;
   Trial trial(const VehicleCondition& at, double slip, const Modes& modes, std::span<const double> x) const;
   SteadyWheel rolled(std::size_t wheel, const OperatingCondition& at) const;
-  SteadyWheel free(std::size_t wheel, OperatingCondition at, double torque, double from) const;
-  void roll_axle(std::size_t axle, double slip, std::vector<OperatingCondition>& at,
+  /// The wheel at the slip next to `from` at which its torque is that of `torque(slip)`.
+  SteadyWheel free(std::size_t wheel, OperatingCondition at, const std::function<double(double)>& torque,
+                   double from) const;
+  void roll_axle(std::size_t axle, double slip, const Rims& rims, std::vector<OperatingCondition>& at,
                  std::vector<SteadyWheel>& wheels) const;
 
   const VehicleCase& vehicle_;
@@ -165,5 +181,8 @@ class SteadyVehicles {
 
 /// The wheel that gives least for its load: the one to look at where the pull of all is too little.
 std::size_t weakest_wheel(const SteadyVehicle& vehicle);
+
+/// Why a vehicle that pulls most (braked: least) like this doesn't pull what is asked.
+GaveOut why_too_little(const SteadyVehicle& most, bool braked);
 
 }  // namespace soilbin::compare

@@ -66,7 +66,18 @@ std::string contradiction(const VehicleCase& vehicle) {
   const auto stiff = [](const VehicleAxle& axle) { return axle.stiffness.has_value(); };
   if (std::ranges::any_of(vehicle.axles, stiff) && !std::ranges::all_of(vehicle.axles, stiff))
     return "some axles have a stiffness and others none: give it for all, or for none";
+  if (vehicle.motor && vehicle.drive_line == DriveLine::motors)
+    return "the drive_line 'motors' has a motor a wheel: give 'motor' to the axles, not to the vehicle";
   for (const VehicleAxle& axle : vehicle.axles) {
+    if (axle.motor && vehicle.drive_line != DriveLine::motors)
+      return fmt::format("axle '{}' has a motor, which belongs to the drive_line 'motors': give it to the vehicle",
+                         axle.name);
+    if (axle.motor && axle.driven == YesNo::no)
+      return fmt::format("axle '{}' has a motor and is not driven", axle.name);
+    if (axle.motor && axle.largest_torque)
+      return fmt::format("axle '{}' has a motor and a largest_torque: give one of the two", axle.name);
+    if (axle.largest_steer && axle.steered == YesNo::no)
+      return fmt::format("axle '{}' has a largest_steer and is not steered", axle.name);
     if (axle.largest_torque && vehicle.drive_line != DriveLine::motors)
       return fmt::format("axle '{}' has a largest_torque, which belongs to the drive_line 'motors'", axle.name);
     if (axle.largest_torque && axle.driven == YesNo::no)

@@ -14,6 +14,7 @@
 
 #include "compare/doubts/declared_tire.hpp"
 #include "scenario/case.hpp"
+#include "scenario/geared_motor.hpp"
 #include "scenario/yes_no.hpp"
 
 namespace soilbin::compare {
@@ -28,11 +29,15 @@ struct VehiclePoint {
 enum class DriveLine {
   locked,      ///< every driven wheel has the same rim speed, but for its axle's lead
   open_axles,  ///< the axles have the same mean rim speed; across an axle the torque is the same
-  motors,      ///< a motor a wheel: one rim speed is asked of all, and each gives no more than its largest torque
+  sides,       ///< the driven wheels of a side turn together; both sides alike straight on, unlike in a turn
+  motors,      ///< a motor a wheel: one rim speed is asked of all, and each gives no more than its axle says
 };
 
-constexpr std::array<Word<DriveLine>, 3> words_of(std::type_identity<DriveLine>) {
-  return {{{"locked", DriveLine::locked}, {"open_axles", DriveLine::open_axles}, {"motors", DriveLine::motors}}};
+constexpr std::array<Word<DriveLine>, 4> words_of(std::type_identity<DriveLine>) {
+  return {{{"locked", DriveLine::locked},
+           {"open_axles", DriveLine::open_axles},
+           {"sides", DriveLine::sides},
+           {"motors", DriveLine::motors}}};
 }
 
 /// Two wheels beside each other, or one.
@@ -43,8 +48,10 @@ struct VehicleAxle {
   std::optional<double> track{};           ///< between the middles of its two wheels [m], > 0; absent: it has one wheel
   YesNo driven = YesNo::yes;               ///< no: its wheels roll freely
   YesNo steered = YesNo::no;               ///< whether it may be turned to keep the vehicle on its line
+  std::optional<double> largest_steer{};   ///< of its middle to either side [rad], > 0; absent: nothing stops it
   double lead = 0.0;                       ///< its rim speed over that of the drive line, less 1 [-], > -1
   std::optional<double> largest_torque{};  ///< of a wheel's motor [N m], > 0
+  std::optional<GearedMotor> motor{};      ///< of each of its wheels; its gear ratio is over that wheel's revolutions
   std::optional<double> stiffness{};       ///< of a wheel's suspension and tire [N/m], > 0; absent: all are alike
   std::optional<double> inertia{};         ///< of a wheel and what spins with it [kg m^2], > 0; absent: a tenth of
                                            ///< the mass that it carries, times its radius squared
@@ -63,6 +70,7 @@ struct VehicleCondition {
   double cross_slope = 0.0;  ///< [rad], left side up positive
   double speed = 1.0;        ///< of travel [m/s], > 0
   double pull = 0.0;         ///< of the drawbar [N]: what the vehicle pulls behind it
+  double curvature = 0.0;    ///< of the path of its centre of gravity [1/m], to the left positive; of no file
 };
 
 /// A stop on the way, and the start from it.
@@ -89,13 +97,21 @@ struct VehicleCase {
   double mass = 0.0;  ///< [kg], > 0
   VehiclePoint centre_of_gravity{};
   DriveLine drive_line = DriveLine::locked;
-  std::optional<double> power{};  ///< that reaches the wheels at most [W], > 0
+  std::optional<double> power{};       ///< that reaches the wheels at most [W], > 0
+  std::optional<GearedMotor> motor{};  ///< of the drive line; its gear ratio is over line_radius
   std::vector<VehicleAxle> axles{};
   VehicleHitch hitch{};
   Soil soil{};
   std::vector<EffectChoice> effects{};
   VehicleCondition condition{};
   VehicleDrive drive{};
+
+  /// At which the spin of the drive line is told [m]: of the first driven axle's wheels.
+  double line_radius() const {
+    for (const VehicleAxle& axle : axles)
+      if (axle.driven == YesNo::yes) return axle.tire.radius;
+    return 1.0;
+  }
 };
 
 template <class Visitor>
@@ -115,10 +131,14 @@ void describe(Visitor& v, std::type_identity<VehicleAxle>) {
            "between the middles of its two wheels; absent: it has one wheel");
   v.choice("driven", &A::driven, Need::optional, "no: its wheels roll freely");
   v.choice("steered", &A::steered, Need::optional, "whether it is turned to keep the vehicle on its line");
+  v.number("largest_steer", &A::largest_steer,
+           Measure{"deg", {.lower = 0.0, .upper = right_angle, .lower_open = true, .upper_open = true}}, Need::optional,
+           "of the middle between its wheels, to either side; absent: nothing stops it");
   v.number("lead", &A::lead, Measure{"-", {.lower = -1.0, .lower_open = true}}, Need::optional,
            "by how much its rim is faster than the drive line's");
   v.number("largest_torque", &A::largest_torque, Measure{"N m", above_zero}, Need::optional,
            "of a wheel's motor, with the drive line 'motors'");
+  v.group("motor", &A::motor, Need::optional, "of each wheel, in place of largest_torque: torque against speed");
   v.number("stiffness", &A::stiffness, Measure{"kN/m", above_zero}, Need::optional,
            "of a wheel's spring and tire; absent: all are alike");
   v.number("inertia", &A::inertia, Measure{"kg m^2", above_zero}, Need::optional,
@@ -172,6 +192,8 @@ void describe(Visitor& v, std::type_identity<VehicleCase>) {
   v.group("centre_of_gravity", &V::centre_of_gravity, Need::required, "where its weight acts");
   v.choice("drive_line", &V::drive_line, Need::optional, "how the wheels are driven");
   v.number("power", &V::power, Measure{"kW", above_zero}, Need::optional, "that reaches the wheels at most");
+  v.group("motor", &V::motor, Need::optional,
+          "that turns the driven wheels, but for the drive line 'motors': torque against speed");
   v.group("hitch", &V::hitch, Need::optional, "where what is pulled is hooked on; absent: on the ground, at x = 0");
   v.group("condition", &V::condition, Need::optional, "slope, speed and pull");
 }

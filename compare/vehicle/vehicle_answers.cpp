@@ -8,6 +8,8 @@
 
 #include "compare/design/factor.hpp"
 #include "compare/vehicle/vehicle.hpp"
+#include "compare/vehicle/vehicle_errors.hpp"
+#include "compare/vehicle/vehicle_speed.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
@@ -55,6 +57,10 @@ std::size_t slopes_gone(const SteadyVehicles& vehicles, const VehicleCondition& 
 
 }  // namespace
 
+VehicleFailure as_failure(const VehicleGaveOut& error) {
+  return {error.why(), error.wheel(), error.why() == GaveOut::wheel ? error.what() : ""};
+}
+
 VehicleCondition heading_on(const VehicleCondition& asked, double slope, double heading) {
   VehicleCondition at = asked;
   at.slope = std::asin(std::sin(slope) * std::cos(heading));
@@ -99,53 +105,6 @@ GoMap go_map(const VehicleCase& question, const std::vector<VehicleWheel>& wheel
 namespace {
 
 constexpr double steepest_asked = 1.2;  // [rad] 69 deg
-
-VehicleFailure as_failure(const VehicleGaveOut& error) {
-  return {error.why(), error.wheel(), error.why() == GaveOut::wheel ? error.what() : ""};
-}
-
-/// What is told of a vehicle, as numbers.
-using Numbers = std::vector<double>;
-using NumbersOf = std::function<Numbers(const std::vector<VehicleWheel>&)>;
-
-/// Standard errors of numbers, to first order: central differences over a thousandth of each standard deviation, the
-/// doubtful values taken as independent. Not a number where a vehicle beside this one has no balance.
-Numbers errors_of(const std::vector<VehicleWheel>& wheels, std::size_t count, const NumbersOf& numbers) {
-  constexpr double share_of_sd = 1e-3, least = 1e-6, most = 1e-2;
-  Numbers variance(count, 0.0);
-  for (const DoubtfulNumber& one : doubtful_numbers(wheels)) {
-    const double size = std::abs(one.value);
-    const double step = size > 0.0 ? std::clamp(share_of_sd * one.sd, least * size, most * size) : share_of_sd * one.sd;
-    const Neighbours beside = neighbours(one.value, step, one.range);
-    const auto with = [&](double value) { return numbers(one.in(wheels, value)); };
-    try {
-      const Numbers below = with(beside.below), above = with(beside.above);
-      for (std::size_t i = 0; i < count; ++i)
-        variance[i] += std::pow((above[i] - below[i]) / (beside.above - beside.below) * one.sd, 2);
-    } catch (const NoSolution&) {
-      return Numbers(count, not_a_number);
-    }
-  }
-  for (double& one : variance) one = std::sqrt(one);
-  return variance;
-}
-
-Numbers steady_numbers(const SteadyVehicle& vehicle) {
-  Numbers all = {vehicle.slip, vehicle.pull, vehicle.power.into_wheels};
-  for (const SteadyWheel& wheel : vehicle.wheels) {
-    const TractionResult& r = wheel.result;
-    for (const double one : {wheel.normal_load, r.at.slip, r.drawbar_pull.value, r.torque.value, r.sinkage.value})
-      all.push_back(one);
-  }
-  return all;
-}
-
-SteadyErrors errors_from(const Numbers& errors) {
-  SteadyErrors all{errors[0], errors[1], errors[2], {}};
-  for (std::size_t i = 3; i + 4 < errors.size(); i += 5)
-    all.wheels.push_back({errors[i], errors[i + 1], errors[i + 2], errors[i + 3], errors[i + 4]});
-  return all;
-}
 
 /// Which way a slope is steep.
 enum class SlopeWay { up, down, across };
@@ -197,16 +156,16 @@ VehicleLimit steepest(const VehicleCase& question, const std::vector<VehicleWhee
     if (spare(high) == none && limit.beyond.why == GaveOut::tips_over) limit.angle->std_error = 0.0;
     return limit;
   }
-  limit.beyond = {braked ? GaveOut::hold : GaveOut::pull, weakest_wheel(last), ""};
+  limit.beyond = {why_too_little(last, braked), weakest_wheel(last), ""};
   // The largest pull changes with soil and slope as the pull at its slip does (the envelope theorem).
   constexpr double step = 1e-4;
   try {
     const double rise = (vehicles.at_slip(on(question.condition, way, low + step), last.slip).pull -
                          vehicles.at_slip(on(question.condition, way, low - step), last.slip).pull) /
                         (2 * step);
-    const Numbers error = errors_of(wheels, 1, [&](const std::vector<VehicleWheel>& changed) {
+    const VehicleNumbers error = errors_of(wheels, 1, [&](const std::vector<VehicleWheel>& changed) {
       const SteadyVehicles other(question, changed, model);
-      return Numbers{other.at_slip(on(question.condition, way, low), last.slip).pull};
+      return VehicleNumbers{other.at_slip(on(question.condition, way, low), last.slip).pull};
     });
     limit.angle->std_error = error[0] / std::abs(rise);
   } catch (const VehicleGaveOut&) {  // it ends beside: no error
@@ -232,14 +191,11 @@ VehicleAnswers answers_of(const VehicleCase& question, const std::vector<Vehicle
   VehicleAnswers answers{question, wheels};
   const SteadyVehicles vehicles(question, wheels, model);
   const VehicleCondition& at = question.condition;
-  const std::size_t count = 3 + 5 * wheels.size();
   try {
     answers.steady = vehicles.pulling(at);
-    answers.errors = errors_from(errors_of(wheels, count, [&](const std::vector<VehicleWheel>& changed) {
-      return steady_numbers(SteadyVehicles(question, changed, model).pulling(at));
-    }));
+    answers.errors = errors_of_steady(question, wheels, model, at);
     if (question.power && answers.steady->power.into_wheels > 0.0)
-      answers.power_speed = *question.power * at.speed / answers.steady->power.into_wheels;
+      answers.power_speed = speed_at_power(*question.power, *answers.steady);
   } catch (const VehicleGaveOut& error) {
     answers.failure = as_failure(error);
   }
@@ -248,7 +204,7 @@ VehicleAnswers answers_of(const VehicleCase& question, const std::vector<Vehicle
     try {
       row.vehicle = vehicles.at_slip(at, row.slip);
       row.pull_error = errors_of(wheels, 1, [&](const std::vector<VehicleWheel>& changed) {
-        return Numbers{SteadyVehicles(question, changed, model).at_slip(at, row.slip).pull};
+        return VehicleNumbers{SteadyVehicles(question, changed, model).at_slip(at, row.slip).pull};
       })[0];
     } catch (const VehicleGaveOut& error) {
       row.failure = as_failure(error);
@@ -257,6 +213,7 @@ VehicleAnswers answers_of(const VehicleCase& question, const std::vector<Vehicle
   }
   const auto [up, down, across] = steepest_slopes(question, wheels, model);
   answers.up = up, answers.down = down, answers.across = across;
+  if (is_limited(question)) add_speeds(answers, model);
   return answers;
 }
 

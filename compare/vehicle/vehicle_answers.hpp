@@ -62,11 +62,14 @@ struct VehicleFailure {
   std::string words{};                 ///< of the model, where it is the wheel's
 };
 
+VehicleFailure as_failure(const VehicleGaveOut& error);
+
 /// Standard errors of a steady state, to first order, from those of the soil's values and the carcass pressures.
 struct SteadyErrors {
   double slip = 0.0;         ///< [-]
   double pull = 0.0;         ///< [N]
   double into_wheels = 0.0;  ///< [W]
+  double steering = 0.0;     ///< [rad]
   struct Wheel {
     double normal_load = 0.0, slip = 0.0, drawbar_pull = 0.0, torque = 0.0, sinkage = 0.0;  ///< [SI]
   };
@@ -89,6 +92,28 @@ struct VehiclePullRow {
   std::optional<VehicleFailure> failure{};
 };
 
+/// What keeps a vehicle from going faster, or from climbing steeper at a speed.
+enum class TravelLimit {
+  soil,    ///< it has no steady state, whatever its motors
+  torque,  ///< of its motors, at their speed
+  power,   ///< that reaches the wheels
+  speed,   ///< the fastest that its motors turn
+};
+
+/// The fastest steady travel on a slope.
+struct FastestTravel {
+  double slope = 0.0;               ///< [rad]
+  std::optional<Estimate> speed{};  ///< [m/s]; none: nothing limits it (soil: it does not travel). Its error is not a
+                                    ///< number where each wheel has a motor
+  std::optional<TravelLimit> limit{};  ///< none: nothing limits it
+};
+
+/// The steepest slope straight up at the condition's speed.
+struct Gradeability {
+  std::optional<Estimate> angle{};  ///< [rad]; none: it does not hold the speed on level ground. Error as above
+  TravelLimit limit = TravelLimit::soil;
+};
+
 struct VehicleAnswers {
   VehicleCase question{};
   std::vector<VehicleWheel> wheels{};
@@ -100,8 +125,13 @@ struct VehicleAnswers {
   std::optional<GoMap> map{};           ///< where one was asked for; answers_of makes none
   std::optional<double> power_speed{};  ///< at which the largest power is used up [m/s]; where there is one
 
-  /// Whether the largest power holds the condition's speed; where it travels.
-  bool holds_speed() const { return !power_speed || *power_speed >= question.condition.speed; }
+  std::optional<FastestTravel> fastest{};      ///< in the condition, where power or motors limit it and it travels
+  std::optional<TravelLimit> not_held{};       ///< what does not hold the condition's speed, where it travels
+  std::optional<Gradeability> gradeability{};  ///< where power or motors limit it
+  std::vector<FastestTravel> climbs{};         ///< on slopes straight up, as that
+
+  /// Whether power and motors hold the condition's speed; where it travels.
+  bool holds_speed() const { return !not_held; }
 };
 
 /// Everything. Throws InputError for a soil without semi_empirical values.

@@ -94,6 +94,12 @@ Doubts doubts_about(const VehicleAnswers& answers, Doubts notes) {
   return once_each(notes);
 }
 
+Doubts doubts_about(const TurnAnswers& answers, Doubts notes) {
+  VehicleAnswers steady{answers.question, answers.wheels};
+  if (answers.turn) steady.steady = answers.turn->vehicle;
+  return doubts_about(steady, std::move(notes));
+}
+
 Doubts doubts_about(const DrivenAnswers& answers, Doubts notes) {
   append(notes, doubts(answers.question));
   append(notes, doubts(answers.question.soil));

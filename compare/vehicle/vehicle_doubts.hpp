@@ -3,6 +3,7 @@
 
 #include "compare/doubts/doubt.hpp"
 #include "compare/vehicle/vehicle_answers.hpp"
+#include "compare/vehicle/vehicle_turn.hpp"
 
 namespace soilbin::compare {
 
@@ -13,6 +14,8 @@ Doubts doubts(const VehicleCase& vehicle);
 /// `notes` (declare_tires), then doubts about the vehicle, the soil, the tires, and the answers of each axle's first
 /// wheel that is on the ground; each once.
 Doubts doubts_about(const VehicleAnswers& answers, Doubts notes);
+/// Of a turn: as those of the steady vehicle.
+Doubts doubts_about(const TurnAnswers& answers, Doubts notes);
 /// Of a drive: `notes`, then doubts about the vehicle and the soil; each once.
 Doubts doubts_about(const DrivenAnswers& answers, Doubts notes);
 

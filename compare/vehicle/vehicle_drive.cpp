@@ -60,7 +60,8 @@ struct Rotor {
   bool driven = false;
   std::size_t first_axle = 0;
   Controller controller{};
-  std::optional<double> power{};  ///< [W]
+  std::optional<double> power{};        ///< [W]
+  std::optional<GearedMotor> geared{};  ///< of its wheels together
   std::optional<Motor> motor{};
 };
 
@@ -275,6 +276,15 @@ void VehicleRide::add_rotors() {
           rotor.controller.highest_torque =
               std::min(rotor.controller.highest_torque.value_or(HUGE_VAL), axle.count * *about.largest_torque);
         if (question_.power) rotor.power = *question_.power * share;
+        rotor.geared = motors ? about.motor : question_.motor;
+        if (rotor.geared) {
+          if (motors)
+            for (TorquePoint& point : rotor.geared->torque_curve) point.torque *= axle.count;
+          const double top = top_spin(*rotor.geared) * rotor.radius;
+          for (auto rim : {&Controller::rim_speed, &Controller::highest_rim_speed})
+            if (rotor.controller.*rim) rotor.controller.*rim = std::min(*(rotor.controller.*rim), top);
+          if (rotor.controller.torque && !rotor.controller.highest_rim_speed) rotor.controller.highest_rim_speed = top;
+        }
       }
     }
     const Rotor& rotor = rotors_[axle.rotor];
@@ -358,7 +368,7 @@ double VehicleRide::held(double displacement) {
       if (axles_[i].rotor == k) carried += axles_[i].count * axles_[i].mass;
     const double moved = question_.drive_line == DriveLine::motors ? carried : question_.mass;
     rotor.motor.emplace(rotor.controller, rotor.radius, rotor.inertia + moved * rotor.radius * rotor.radius, torque[k],
-                        rotor.power, halt_);
+                        rotor.power, halt_, rotor.geared);
   }
   return forward - weight_ * along - pull_along;
 }

@@ -23,6 +23,12 @@ std::vector<compare::VehicleWheel> wheels_with_tires(const VehicleCase& vehicle)
   if (vehicle.axles.empty()) throw InputError("the vehicle has no axles");
   for (std::size_t i = 0; i < vehicle.axles.size(); ++i)
     if (!(vehicle.axles[i].tire.radius > 0)) throw InputError(fmt::format("axles[{}] has no tire", i));
+  const auto refuse = [](const std::string& wrong) {
+    if (!wrong.empty()) throw InputError(wrong);
+  };
+  if (vehicle.motor) refuse(contradiction(*vehicle.motor));
+  for (const VehicleAxle& axle : vehicle.axles)
+    if (axle.motor) refuse(contradiction(*axle.motor));
   return wheels_of(vehicle);
 }
 
@@ -38,6 +44,17 @@ Document vehicle_on_soil(const VehicleCase& question, int map_samples, bool rigi
     compare::VehicleAnswers answers = compare::answers_of(question, wheels, model);
     if (map_samples > 0)
       answers.map = compare::go_map(question, wheels, model, {.samples = map_samples, .progress = watch.of_steps()});
+    return {compare::json_text(report_on(answers).data()), compare::in_words(doubts_about(answers, std::move(notes)))};
+  });
+}
+
+Document turned_vehicle(const VehicleCase& question, std::optional<double> radius, std::optional<double> steer,
+                        bool rigid, bool no_lugs) {
+  if (radius && steer) throw InputError("give radius or steer, not both");
+  return unlocked([&]() -> Document {
+    std::vector<compare::VehicleWheel> wheels = wheels_with_tires(question);
+    Doubts notes = declare_tires(wheels, {.pressure = rigid, .lugs = no_lugs});
+    const compare::TurnAnswers answers = compare::turn_of(question, wheels, wheel_model(), {radius, steer});
     return {compare::json_text(report_on(answers).data()), compare::in_words(doubts_about(answers, std::move(notes)))};
   });
 }
@@ -59,6 +76,10 @@ void bind_parts(py::module_& module) {
   py::class_<compare::VehiclePoint> point(module, "VehiclePoint",
                                           "A point of the vehicle: x forward, y to the left, z up from the ground.");
   described(point);
+  py::class_<TorquePoint> torque_point(module, "TorquePoint", "A point of a motor's torque curve.");
+  described(torque_point);
+  py::class_<GearedMotor> motor(module, "GearedMotor", "A motor's largest torque against its speed, through its gear.");
+  described(motor);
   py::class_<VehicleAxle> axle(module, "VehicleAxle", "Two wheels beside each other, or one without a track.");
   axle.def_property(
       "tire", [](const VehicleAxle& a) { return a.tire; },
@@ -115,6 +136,8 @@ void bind_vehicle(py::module_& module) {
       py::arg("name"), "A vehicle of the library, or of a YAML file. Raises InputError.");
   module.def("vehicle_on_soil", &vehicle_on_soil, py::arg("vehicle"), py::arg("map_samples"), py::arg("rigid"),
              py::arg("no_lugs"), py::arg("progress"), "Document and warnings; see soilbin.vehicle_on_soil.");
+  module.def("turn_vehicle", &turned_vehicle, py::arg("vehicle"), py::arg("radius"), py::arg("steer"), py::arg("rigid"),
+             py::arg("no_lugs"), "Document and warnings; see soilbin.turn_vehicle.");
   module.def("drive_vehicle", &driven, py::arg("vehicle"), py::arg("samples"), py::arg("rigid"), py::arg("no_lugs"),
              py::arg("progress"), "Document and warnings; see soilbin.drive_vehicle.");
 }

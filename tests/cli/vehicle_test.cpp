@@ -115,6 +115,84 @@ TEST(VehicleCommand, SaysThatThePowerDoesNotHoldTheSpeed) {
   EXPECT_TRUE(soilbin("vehicle truck --json").json().at("holds_speed").get<bool>());
 }
 
+const std::string cart_with_motor = R"(format: soilbin-vehicle-case/1
+name: cart
+mass: 73.4 kg
+centre_of_gravity: {x: 0.6 m, z: 0.6 m}
+motor:
+  torque_curve: [{speed: 0 rpm, torque: 20 N m}, {speed: 60 rpm, torque: 5 N m}]
+  gear_ratio: 3
+  efficiency: 90 %
+axles:
+  - {name: front, x: 1.2 m, track: 1.3 m, tire: {name: wheel, radius: 250 mm, width: 200 mm}}
+  - {name: rear, x: 0 m, track: 1.3 m, tire: {name: wheel, radius: 250 mm, width: 200 mm}}
+soil: grc-1
+condition: {speed: 0.1 m/s}
+)";
+
+TEST(VehicleCommand, SaysHowFastAndHowSteepItsMotorLetsItGo) {
+  const Scratch scratch;
+  const std::string file = "'" + scratch.write("cart.yaml", cart_with_motor).string() + "'";
+  const Outcome run = soilbin("vehicle " + file);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("Fastest: "), HasSubstr("m/s: the motors give no more torque."),
+                             HasSubstr("Climbs at its speed: "), HasSubstr("Speed on slopes")));
+  const auto answer = soilbin("vehicle " + file + " --json").json();
+  EXPECT_EQ(answer.at("fastest").at("limit"), "torque");
+  EXPECT_EQ(answer.at("gradeability").at("limit"), "torque");
+  const auto& climbs = answer.at("climbs");
+  ASSERT_GE(climbs.size(), 3u);
+  EXPECT_GT(climbs[0].at("speed").at("value").get<double>(), climbs[1].at("speed").at("value").get<double>());
+  const Outcome fast = soilbin("vehicle " + file + " --speed 1m/s");
+  EXPECT_EQ(fast.status, 1);
+  EXPECT_THAT(fast.err, HasSubstr("it does not hold 1.00 m/s: the motors give no more torque"));
+}
+
+TEST(VehicleCommand, TellsTheTightestTurnAndWhatEndsIt) {
+  const Outcome run = soilbin("vehicle truck --turn");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out,
+              AllOf(HasSubstr("It turns: Radius "), HasSubstr("A tighter one: the steered wheels turn no further."),
+                    HasSubstr("slip angle"), HasSubstr("Add sidewall_bulldozing")));
+  const auto answer = soilbin("vehicle truck --turn --radius -20m --json").json();
+  EXPECT_EQ(answer.at("format"), "soilbin-vehicle-turn/1");
+  EXPECT_LT(answer.at("turn").at("steering").get<double>(), 0.0);
+  EXPECT_EQ(answer.at("turn").at("wheels").size(), 4u);
+  EXPECT_EQ(answer.at("end").at("limit"), "steering");
+  const Outcome tight = soilbin("vehicle truck --turn --radius 3m");
+  EXPECT_EQ(tight.status, 1);
+  EXPECT_THAT(tight.err, HasSubstr("does not turn so: "));
+}
+
+TEST(VehicleCommand, RefusesATurnThatIsNone) {
+  const auto told = [](const std::string& flags) {
+    const Outcome run = soilbin("vehicle truck " + flags);
+    EXPECT_EQ(run.status, 2) << flags;
+    return run.err;
+  };
+  EXPECT_THAT(told("--turn --slope 5deg"), HasSubstr("on a slope no turn is steady"));
+  EXPECT_THAT(told("--radius 5m"), HasSubstr("--turn"));
+  EXPECT_THAT(told("--turn --radius 5deg"), HasSubstr("--radius"));
+  EXPECT_THAT(told("--turn --radius 0m"), HasSubstr("a radius other than 0"));
+  EXPECT_THAT(told("--turn --drive"), HasSubstr("--turn"));
+}
+
+TEST(VehicleCommand, RefusesAMotorThatItCannotRead) {
+  const Scratch scratch;
+  const auto told = [&](const std::string& from, const std::string& to) {
+    std::string text = cart_with_motor;
+    text.replace(text.find(from), from.size(), to);
+    const Outcome run = soilbin("vehicle '" + scratch.write("bad.yaml", text).string() + "'");
+    EXPECT_EQ(run.status, 2);
+    return run.err;
+  };
+  EXPECT_THAT(told("speed: 60 rpm", "speed: 0 rpm"),
+              AllOf(HasSubstr("bad.yaml:6"), HasSubstr("the speeds of the torque_curve don't rise")));
+  EXPECT_THAT(told("speed: 60 rpm", "speed: 60"), AllOf(HasSubstr("bad.yaml:6"), HasSubstr("rpm")));
+  EXPECT_THAT(told("torque_curve", "torque"), AllOf(HasSubstr("bad.yaml:6"), HasSubstr("torque_curve")));
+  EXPECT_THAT(told("motor:", "drive_line: motors\nmotor:"), HasSubstr("give 'motor' to the axles"));
+}
+
 TEST(VehicleCommand, ItsFileIsChecked) {
   EXPECT_THAT(soilbin("check " + rover).out, HasSubstr("valid: vehicle 'rover': 2 axles on"));
   const Scratch scratch;

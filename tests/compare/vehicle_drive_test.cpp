@@ -13,6 +13,7 @@
 #include "bekker_wong/model.hpp"
 #include "compare/vehicle/steady_vehicle.hpp"
 #include "compare/vehicle/vehicle_answers.hpp"
+#include "compare/vehicle/vehicle_speed.hpp"
 #include "scenario/yawed_frames.hpp"
 #include "tests/fixtures.hpp"
 
@@ -284,6 +285,24 @@ TEST(VehicleDrive, AMotorGivesNoMoreThanItsPower) {
   EXPECT_NEAR(end.torque * end.rim_speed / 0.15, *vehicle.power, 1e-4 * asked);
   EXPECT_NEAR(end.speed, 0.6 * strong.speed, 0.01 * strong.speed) << "at the slip of before";
   EXPECT_EQ(record.happenings.front().what, DriveEvent::torque_limit);
+}
+
+TEST(SlowVehicleDrive, SettlesWhereItsMotorsTorqueCurveLetsIt) {
+  VehicleCase vehicle = driven_rover();
+  vehicle.condition.slope = 4 * degree, vehicle.condition.speed = 0.2;
+  const auto wheels = wheels_of(vehicle);
+  const SteadyVehicle steady = SteadyVehicles(vehicle, wheels, steady_model).pulling(vehicle.condition);
+  const double torque = steady.power.into_wheels * speed_ratio(steady.slip) * 0.15 / 0.2;
+  vehicle.motor = GearedMotor{{{0.0, 2.0 * torque}, {10.0, 0.0}}, 10.0, 0.1};  // half way: 5 rad/s over 10
+  const double fastest = fastest_of(vehicle, steady).speed->value;
+  EXPECT_NEAR(fastest, 0.5 * 0.15 * speed_ratio(steady.slip), 1e-9);
+  const VehicleDriveRecord record = driven(vehicle);
+  ASSERT_EQ(record.end, DriveEnd::time_is_up);
+  EXPECT_TRUE(record.at_motors_limit);
+  EXPECT_NEAR(record.samples.back().speed, fastest, 1e-4 * fastest);
+  EXPECT_NEAR(record.samples.back().torque, torque, 1e-4 * torque);
+  vehicle.motor->torque_curve = {{0.0, 9.0 * torque}, {5.0, 9.0 * torque}};
+  EXPECT_NEAR(driven(vehicle).samples.back().rim_speed, 0.5 * 0.15, 1e-5) << "its motor turns no faster";
 }
 
 TEST(VehicleDrive, OfTheMotorsTheWeakOneIsHeldAtItsLargestTorque) {

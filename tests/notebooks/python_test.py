@@ -969,6 +969,23 @@ class Vehicles(unittest.TestCase):
         known = command("vehicle", "rover", "--drive", "--slope", "5deg")
         self.assertEqual(soilbin.drive_vehicle(self.rover(5))["travelled"], known["travelled"])
 
+    def test_a_turn_is_the_commands(self):
+        turn = soilbin.turn_vehicle(self.rover(), radius=3.0)
+        known = command("vehicle", "rover", "--turn", "--radius", "3m")
+        self.assertEqual(turn["turn"], known["turn"])
+        with self.assertRaisesRegex(soilbin.InputError, "not both"):
+            soilbin.turn_vehicle(self.rover(), radius=3.0, steer=0.2)
+
+    def test_a_motor_says_how_fast_it_goes(self):
+        rover = self.rover()
+        rover.drive_line = soilbin.DriveLine.locked
+        curve = [soilbin.TorquePoint(speed=0.0, torque=30.0), soilbin.TorquePoint(speed=5.0, torque=0.0)]
+        rover.motor = soilbin.GearedMotor(torque_curve=curve)
+        self.assertEqual(soilbin.vehicle_on_soil(rover)["fastest"]["limit"], "torque")
+        rover.motor = soilbin.GearedMotor(torque_curve=curve[:1])
+        with self.assertRaisesRegex(soilbin.InputError, "two points or more"):
+            soilbin.vehicle_on_soil(rover)
+
     def test_a_map_is_told_with_its_progress(self):
         rover, shares = self.rover(), []
         answer = soilbin.vehicle_on_soil(rover, map_samples=2, progress=lambda done, stage: shares.append(done))

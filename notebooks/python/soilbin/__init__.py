@@ -32,6 +32,7 @@ from soilbin._soilbin import (
     EffectForm,
     Estimate,
     ForceFrame,
+    GearedMotor,
     GrainCohesion,
     GrainFraction,
     GranularSoil,
@@ -52,6 +53,7 @@ from soilbin._soilbin import (
     SlipBy,
     Soil,
     Tire,
+    TorquePoint,
     TractionResult,
     Vehicle,
     VehicleAxle,
@@ -79,16 +81,16 @@ from soilbin._soilbin import (
 from soilbin.exports import export_fmi, export_gazebo, export_scm, export_table
 from soilbin.other_codes import soil_from_liggghts
 from soilbin.questions import SoilbinWarning, conditions, estimate, names, run_study, sweep
-from soilbin.vehicles import drive_vehicle, vehicle_on_soil, wheels_frame
+from soilbin.vehicles import drive_vehicle, turn_vehicle, vehicle_on_soil, wheels_frame
 
 __all__ = [
     "Bin", "Case", "ConeIndex", "ContactPair", "Controller", "Drive", "DriveLine", "EffectChoice", "EffectForm", "Estimate", "ForceFrame",
-    "GrainCohesion", "GrainFraction", "GranularSoil", "InputError", "LugPattern", "Lugs", "Model", "ModelKind", "NoSolution", "OperatingCondition",
+    "GearedMotor", "GrainCohesion", "GrainFraction", "GranularSoil", "InputError", "LugPattern", "Lugs", "Model", "ModelKind", "NoSolution", "OperatingCondition",
     "ResistiveForce", "ResistiveForceSoil", "RollingResistance", "RunStopped", "Scenario", "SemiEmpiricalSoil", "Shelf", "SlipBy", "Soil", "SoilbinWarning",
-    "Tire", "TractionResult", "Vehicle", "VehicleAxle", "VehicleCondition", "VehicleDrive", "VehicleHitch",
+    "Tire", "TorquePoint", "TractionResult", "Vehicle", "VehicleAxle", "VehicleCondition", "VehicleDrive", "VehicleHitch",
     "VehiclePoint", "VehicleStop", "Waypoint", "__version__", "at_density",
     "bekker_wong", "cases_folders", "compare", "conditions", "dem",
     "doubts", "drive_vehicle", "effect_catalogue", "estimate", "export_fmi", "export_gazebo", "export_scm", "export_table", "find_case",
     "find_soil", "find_tire", "find_vehicle", "in_words", "names", "parse_case", "parse_vehicle", "run_study", "soil_from_liggghts", "sweep",
-    "vehicle_on_soil", "wheels_frame", "write_soil", "write_tire",
+    "turn_vehicle", "vehicle_on_soil", "wheels_frame", "write_soil", "write_tire",
 ]

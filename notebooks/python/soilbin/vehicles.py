@@ -37,6 +37,18 @@ def vehicle_on_soil(vehicle: Vehicle, *, map_samples: int = 0, rigid: bool = Fal
 
 
 @worded
+def turn_vehicle(vehicle: Vehicle, *, radius: float | None = None, steer: float | None = None, rigid: bool = False,
+                 no_lugs: bool = False) -> dict[str, Any]:
+    """The steady turn of a radius [m] or of a steering angle [rad] on level ground, to the left positive; without both
+    the tightest one, and what ends it.
+
+    Gives the document soilbin-vehicle-turn/1, as `soilbin vehicle --turn --json` does; SI and radians. Where there is no
+    such turn, `turn` is None and `why_not` says why. Raises InputError for a slope and for a vehicle that cannot turn.
+    """
+    return document(_soilbin.turn_vehicle(checked_vehicle(vehicle), radius, steer, rigid, no_lugs))
+
+
+@worded
 def drive_vehicle(vehicle: Vehicle, samples: int = 400, *, rigid: bool = False, no_lugs: bool = False,
                   progress: Progress = "shown") -> dict[str, Any]:
     """Drives the vehicle in time from rest, straight up or down, as its `drive` says.
