@@ -109,7 +109,7 @@ int compare_models(CompareOptions asked, const CLI::App& command, const Session&
     about.facts.insert(about.facts.end(), of.grains.facts.begin(), of.grains.facts.end());
     sides.push_back(std::move(of.grains.side)), runs = std::move(of.runs);
   }
-  compare::Doubts doubts = compare::doubts(question, sides);
+  compare::Doubts doubts = compare::doubts_of_sides(question, sides);
   append(doubts, compare::bed_density_doubts(question.scenario.soil, runs));
   question.scenario.soil.name = values.title(!runs.empty());
   if (!asked.measured.empty())

@@ -211,7 +211,7 @@ bool grains_are_coarse(const Comparison& comparison) {
          grains_are_coarse(question.scenario, answers_of(question, comparison.sides));
 }
 
-Doubts doubts(const Case& question, const std::vector<Side>& sides) {
+Doubts doubts_of_sides(const Case& question, const std::vector<Side>& sides) {
   const std::vector<ModelAnswers> study = answers_of(question, sides);
   Case asked = question;
   asked.study.models.clear();

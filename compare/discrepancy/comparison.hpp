@@ -125,7 +125,7 @@ bool grains_are_coarse(const Comparison& comparison);
 
 /// What is doubtful in models side by side (compare/doubts/doubts.hpp): the analytic ones, then grains where there
 /// are any.
-Doubts doubts(const Case& question, const std::vector<Side>& sides);
+Doubts doubts_of_sides(const Case& question, const std::vector<Side>& sides);
 
 // Why sides differ: parts of the pull side by side, where the contact begins and ends, what slip adds to the sinkage.
 

@@ -182,7 +182,9 @@ TEST(SlowCompressionCurves, ADenserTestIsAnsweredAsByItself) {
 TEST(SlowCompressionCurves, StandBesideTheGrainsAtTheirPressure) {
   CompressionCurve measured = rising(0.5, 0.004, -0.01);
   measured.confining = 20e3;
-  dem::TriaxialSettings cell = pressed_as(std::vector{measured}, {.side = 5, .height = 8});
+  dem::TriaxialSettings cell;
+  cell.side = 5, cell.height = 8;
+  cell = pressed_as(std::vector{measured}, cell);
   EXPECT_THAT(cell.stresses, ElementsAre(20e3));
   EXPECT_EQ(cell.strain, measured.strain.back());
   cell.strain = 0.1, cell.samples = 200;
