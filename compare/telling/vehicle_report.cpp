@@ -72,15 +72,14 @@ std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
     const bool kilo = std::abs(v.power.into_wheels) >= 1000.0;
     const double unit = kilo ? 1000.0 : 1.0;
     const char* prefix = kilo ? "k" : "";
-    if (!answers.holds_speed() && answers.fastest->limit == TravelLimit::power)
+    if (answers.not_held == TravelLimit::power)
       said.push_back(
           {capital(too_fast_in_words(answers)),
            fmt::format("That takes {} {}W at the wheels, and {} {}W reach them, enough for {} m/s.",
                        number({v.power.into_wheels, told_error(answers.errors.into_wheels)}, 1 / unit), prefix,
                        number(*answers.question.power / unit, 3), prefix, number(*answers.power_speed, 3))});
     else if (!answers.holds_speed())
-      said.push_back(
-          {capital(too_fast_in_words(answers)), capital(travel_limit_in_words(*answers.fastest->limit)) + "."});
+      said.push_back({capital(too_fast_in_words(answers)), capital(travel_limit_in_words(*answers.not_held)) + "."});
     said.push_back({answers.holds_speed() ? "It travels" : "At that speed",
                     fmt::format("The drive line slips by {} %; the wheels take {} {}W, {} {}J a metre.",
                                 number({v.slip, told_error(answers.errors.slip)}, 100),
@@ -463,9 +462,9 @@ Report report_on(const VehicleAnswers& answers) {
   report.add("Against slip", Figure(report.sheet, "Band: one standard error of the pull."));
   if (answers.failure) report.no_answer = "does not travel: " + failure_in_words(answers.wheels, *answers.failure);
   if (answers.steady && !answers.holds_speed())
-    report.no_answer = too_fast_in_words(answers) + ": " +
-                       (answers.fastest->limit == TravelLimit::power ? "too little power"
-                                                                     : travel_limit_in_words(*answers.fastest->limit));
+    report.no_answer =
+        too_fast_in_words(answers) + ": " +
+        (answers.not_held == TravelLimit::power ? "too little power" : travel_limit_in_words(*answers.not_held));
   report.data = [&answers] { return vehicle_json(answers); };
   report.csv = [&answers] { return vehicle_csv(answers); };
   return report;

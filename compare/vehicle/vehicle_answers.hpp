@@ -126,11 +126,12 @@ struct VehicleAnswers {
   std::optional<double> power_speed{};  ///< at which the largest power is used up [m/s]; where there is one
 
   std::optional<FastestTravel> fastest{};      ///< in the condition, where power or motors limit it and it travels
+  std::optional<TravelLimit> not_held{};       ///< what does not hold the condition's speed, where it travels
   std::optional<Gradeability> gradeability{};  ///< where power or motors limit it
   std::vector<FastestTravel> climbs{};         ///< on slopes straight up, as that
 
   /// Whether power and motors hold the condition's speed; where it travels.
-  bool holds_speed() const { return !fastest || !fastest->speed || fastest->speed->value >= question.condition.speed; }
+  bool holds_speed() const { return !not_held; }
 };
 
 /// Everything. Throws InputError for a soil without semi_empirical values.

@@ -14,6 +14,11 @@ bool has_wheel_motors(const VehicleCase& question) {
   return std::ranges::any_of(question.axles, [](const VehicleAxle& axle) { return axle.motor.has_value(); });
 }
 
+/// Spin of the drive line [rad/s].
+double line_spin(const VehicleCase& question, const SteadyVehicle& steady) {
+  return steady.at.speed / speed_ratio(steady.slip) / question.line_radius();
+}
+
 /// Rim speed beyond which no wheel's motor turns [m/s]; HUGE_VAL where one has no curve.
 double top_rim_speed(const VehicleCase& question) {
   double top = 0.0;
@@ -84,13 +89,25 @@ double speed_at_power(double power, const SteadyVehicle& steady) {
   return power * steady.at.speed / steady.power.into_wheels;
 }
 
+std::optional<SpareDrive> spare_of(const VehicleCase& question, const SteadyVehicle& steady) {
+  std::optional<SpareDrive> least;
+  const auto note = [&](double given, double taken, TravelLimit limit) {
+    const double share = given / taken - 1.0;
+    if (!least || share < least->share) least = SpareDrive{share, limit};
+  };
+  const double into_wheels = steady.power.into_wheels;
+  if (question.power && into_wheels > 0.0) note(*question.power, into_wheels, TravelLimit::power);
+  if (!question.motor) return least;
+  const double spin = line_spin(question, steady);
+  note(top_spin(*question.motor), spin, TravelLimit::speed);
+  if (into_wheels > 0.0 && std::isfinite(spin))
+    note(torque_at_wheels(*question.motor, spin) * spin, into_wheels, TravelLimit::torque);
+  return least;
+}
+
 std::optional<TravelLimit> not_held_by(const VehicleCase& question, const SteadyVehicle& steady) {
-  if (has_wheel_motors(question)) {
-    const bool held = !question.power || steady.power.into_wheels <= *question.power;
-    return held ? std::nullopt : std::optional(TravelLimit::power);
-  }
-  const FastestTravel fastest = fastest_of(question, steady);
-  return !fastest.speed || fastest.speed->value >= steady.at.speed ? std::nullopt : fastest.limit;
+  const std::optional<SpareDrive> spare = spare_of(question, steady);
+  return spare && spare->share < 0.0 ? std::optional(spare->limit) : std::nullopt;
 }
 
 FastestTravel fastest_of(const VehicleCase& question, const SteadyVehicle& steady) {
@@ -101,7 +118,7 @@ FastestTravel fastest_of(const VehicleCase& question, const SteadyVehicle& stead
     fastest.limit = TravelLimit::power;
   }
   if (!question.motor) return fastest;
-  const double spin = steady.at.speed / speed_ratio(steady.slip) / question.line_radius();  // of the drive line
+  const double spin = line_spin(question, steady);
   if (!std::isfinite(spin)) return {steady.at.slope, Estimate{0.0, 0.0}, TravelLimit::speed};
   const double below = fastest.speed ? spin * fastest.speed->value / steady.at.speed : HUGE_VAL;
   const std::optional<double> most = fastest_spin(*question.motor, into_wheels / spin, below);
@@ -151,8 +168,13 @@ Gradeability gradeability_of(const VehicleAnswers& answers, const Model& model) 
     }
   };
   const auto limit_on = [&](double slope) {
-    return fastest_travel(question, answers.wheels, model, climbing(question.condition, slope))
-        .limit.value_or(TravelLimit::soil);
+    const VehicleCondition at = climbing(question.condition, slope);
+    if (wheel_motors) return fastest_travel(question, answers.wheels, model, at).limit.value_or(TravelLimit::soil);
+    try {
+      return not_held_by(question, vehicles.pulling(at)).value_or(TravelLimit::soil);
+    } catch (const VehicleGaveOut&) {
+      return TravelLimit::soil;
+    }
   };
   if (!answers.up.angle || !goes(0.0)) return {{}, limit_on(0.0)};
   constexpr double close = 1e-6;
@@ -166,14 +188,20 @@ Gradeability gradeability_of(const VehicleAnswers& answers, const Model& model) 
   }
   Gradeability found{Estimate{low, not_a_number}, limit_on(high)};
   if (wheel_motors) return found;
+  // What is spare changes with soil and slope: by its share of what is taken, which has no jump.
   constexpr double step = 1e-4;
-  const auto speed = [&](double slope) {
-    const FastestTravel fastest = fastest_travel(question, answers.wheels, model, climbing(question.condition, slope));
-    return fastest.speed ? fastest.speed->value : not_a_number;
+  const auto spare = [&](const std::vector<VehicleWheel>& wheels, double slope) {
+    const VehicleCondition at = climbing(question.condition, slope);
+    return spare_of(question, SteadyVehicles(question, wheels, model).pulling(at))->share;
   };
-  const double fall = (speed(low + step) - speed(low - step)) / (2 * step);
-  found.angle->std_error =
-      speed_error(question, answers.wheels, model, climbing(question.condition, low)) / std::abs(fall);
+  try {
+    const double fall = (spare(answers.wheels, low + step) - spare(answers.wheels, low - step)) / (2 * step);
+    const VehicleNumbers error = errors_of(answers.wheels, 1, [&](const std::vector<VehicleWheel>& changed) {
+      return VehicleNumbers{spare(changed, low)};
+    });
+    found.angle->std_error = error[0] / std::abs(fall);
+  } catch (const VehicleGaveOut&) {  // it ends beside: no error
+  }
   return found;
 }
 
@@ -184,6 +212,7 @@ void add_speeds(VehicleAnswers& answers, const Model& model) {
   answers.fastest = fastest_travel(question, answers.wheels, model, question.condition);
   if (answers.fastest->speed && !has_wheel_motors(question))
     answers.fastest->speed->std_error = speed_error(question, answers.wheels, model, question.condition);
+  if (answers.steady) answers.not_held = not_held_by(question, *answers.steady);
   answers.gradeability = gradeability_of(answers, model);
   constexpr double step = 5 * degree, steepest = 1.2;
   for (int i = 0; i * step < std::min(steepest, answers.up.angle ? answers.up.angle->value : 0.0); ++i)

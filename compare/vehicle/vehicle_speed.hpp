@@ -20,6 +20,14 @@ double speed_at_power(double power, const SteadyVehicle& steady);
 /// Effects that read the speed are taken at that of the state. Without an error; for a vehicle without motors of axles.
 FastestTravel fastest_of(const VehicleCase& question, const SteadyVehicle& steady);
 
+/// What power and motor give beyond what a steady state takes at its speed, over that: the smallest such share; none
+/// where nothing limits it. For a vehicle without motors of axles as far as its motor goes.
+struct SpareDrive {
+  double share = 0.0;
+  TravelLimit limit = TravelLimit::torque;
+};
+std::optional<SpareDrive> spare_of(const VehicleCase& question, const SteadyVehicle& steady);
+
 /// What of power and motors does not hold a steady state at its speed; none where they do.
 std::optional<TravelLimit> not_held_by(const VehicleCase& question, const SteadyVehicle& steady);
 

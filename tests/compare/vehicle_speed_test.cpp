@@ -134,6 +134,19 @@ TEST(VehicleSpeed, TheSteepestSlopeAtASpeedIsTheTorqueCurvesThere) {
   }
 }
 
+TEST(VehicleSpeed, OneTooSlowForItsTorqueCurveIsNotHeldThoughAFasterOneIs) {
+  // T rises from 25 N m at 10 rad/s to 100 at 100: at 0.3 m/s the motor gives 25, at 3 m/s 100.
+  VehicleCase vehicle = cart();
+  vehicle.motor = GearedMotor{{{10.0, 25.0}, {100.0, 100.0}}, 10.0, 1.0};
+  vehicle.condition.pull = 50.0 * 10.0 / radius - resists * weight_of(vehicle);  // takes 50 N m
+  vehicle.condition.speed = 0.3;
+  const VehicleAnswers slow = answers_of(vehicle, wheels_of(vehicle), firm);
+  EXPECT_EQ(slow.not_held, TravelLimit::torque);
+  EXPECT_NEAR(slow.fastest->speed->value, 3.0, 1e-4);
+  vehicle.condition.speed = 1.3;  // 50 N m from 40 rad/s on: 1.2 m/s
+  EXPECT_TRUE(answers_of(vehicle, wheels_of(vehicle), firm).holds_speed());
+}
+
 TEST(VehicleSpeed, IsLimitedByTheSoilWhereTheMotorsHaveMoreThanItTakes) {
   VehicleCase vehicle = cart();
   vehicle.motor = GearedMotor{{{0.0, 1e4}, {1e3, 1e4}}, 10.0, 1.0};

@@ -902,7 +902,9 @@ class Vehicles(unittest.TestCase):
         curve = [soilbin.TorquePoint(speed=0.0, torque=30.0), soilbin.TorquePoint(speed=5.0, torque=0.0)]
         rover.motor = soilbin.GearedMotor(torque_curve=curve)
         self.assertEqual(soilbin.vehicle_on_soil(rover)["fastest"]["limit"], "torque")
-        rover.motor = soilbin.GearedMotor(torque_curve=curve[:1])
+        with self.assertRaisesRegex(soilbin.InputError, "two points or more"):
+            soilbin.GearedMotor(torque_curve=curve[:1])
+        rover.motor.torque_curve = []
         with self.assertRaisesRegex(soilbin.InputError, "two points or more"):
             soilbin.vehicle_on_soil(rover)
 
