@@ -433,9 +433,8 @@ TEST(SlowLoop, TellsWhatAnEffectPresumesOfTheWheel) {
   const std::vector<std::string> said = explanation(answer);
   EXPECT_TRUE(std::any_of(said.begin(), said.end(), tells));
   EXPECT_TRUE(tells(resolved_model(campaign, answer).description));
-  const std::string page =
-      page_of(report_on(campaign, answer, {}),
-              {.title = {}, .command = {}, .versions = {}, .doubts = {"rows 3 and 7 repeat each other"}});
+  const std::string page = page_of(report_on(campaign, answer, {}),
+                                   {.command = {}, .versions = {}, .doubts = {"rows 3 and 7 repeat each other"}});
   EXPECT_NE(page.find("lug thrust assumes lug height = 12.5 mm (5"), std::string::npos);
   EXPECT_NE(page.find("rows 3 and 7 repeat each other"), std::string::npos);
   campaign.wheel.lugs.height = 0.0125;

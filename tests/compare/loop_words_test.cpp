@@ -108,7 +108,7 @@ TEST(WorseChannels, AreThoseOfAModelWithEffects) {
   answer.validation = mixed();
   EXPECT_TRUE(worse_channels(answer).empty());
   EXPECT_EQ(to_json(answer).at("worse").size(), 0u);
-  answer.outcome = UnknownEffect{{}, true, {bulldozing()}, {}, {}, {}};
+  answer.outcome = UnknownEffect{{}, {bulldozing()}, {}, {}, {}};
   EXPECT_EQ(worse_channels(answer), std::vector<int>{drawbar_pull});
   EXPECT_EQ(to_json(answer).at("worse"), nlohmann::ordered_json({"drawbar_pull"}));
 }
@@ -150,7 +150,7 @@ TEST(ParametersTable, ShowsUnitsMeaningAndBounds) {
   layer.fitted = {"a", "d"};
   layer.ci95 = {{0.0, 50.0}, {0.0373, 0.045}};
   layer.at_bound = {true, false};
-  answer.outcome = UnknownEffect{{}, true, {layer}, {}, {}, {}};
+  answer.outcome = UnknownEffect{{}, {layer}, {}, {}, {}};
   const Table table = parameters_table(answer);
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_EQ(table.rows[0][0].text, "hard layer");
@@ -356,7 +356,7 @@ TEST(NextRun, BetweenNamedSetsIsNotProposedWhereTheyAreFarApart) {
   with.ambiguity_set = answer.found().candidates.sets;
   for (const double behind : {2.0, 12.0}) {
     with.ambiguity_set[1].log_evidence = -behind;
-    answer.outcome = UnknownEffect{with, false, {}, {}, {}, {}};
+    answer.outcome = UnknownEffect{with, {}, {}, {}, {}};
     EXPECT_EQ(proposes_next(answer), behind < 4.6) << behind;
   }
   answer.outcome = EffectFound{with, {}};

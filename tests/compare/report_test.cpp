@@ -317,7 +317,7 @@ TEST(Report, ATerminalGetsSentencesAndTablesWithBlankLinesAroundThem) {
 }
 
 TEST(Report, APageHasItsPartsInOrderAndTheWarningsBehindTheFirstSentences) {
-  const std::string html = page_of(small_report(), {"", "soilbin pull", {{"soilbin", "1"}}, {"coarse grains"}});
+  const std::string html = page_of(small_report(), {"soilbin pull", {{"soilbin", "1"}}, {"coarse grains"}});
   std::size_t at = 0;
   for (const char* part : {"<title>Pull</title>", "It pulls.", "coarse grains", "Numbers", "caption", "Seen", "<svg",
                            "What to see.", "Steps", "k_c: 1", "soilbin pull", "made of 3 runs"}) {
@@ -330,7 +330,7 @@ TEST(Report, APageHasItsPartsInOrderAndTheWarningsBehindTheFirstSentences) {
 
 TEST(Report, MarkdownHasFiguresAndDataBesideIt) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("soilbin-report-{}", getpid());
-  write_markdown(folder, small_report(), {"", "soilbin pull", {}, {"coarse grains"}}, true);
+  write_markdown(folder, small_report(), {"soilbin pull", {}, {"coarse grains"}}, true);
   const auto text = [&](const char* name) { return read_bytes(folder / name, 1U << 20U); };
   EXPECT_THAT(text("report.md"),
               AllOf(HasSubstr("# Pull\n"), HasSubstr("- **Deep.** it sinks."), HasSubstr("| 20 | 15.2 |")));
