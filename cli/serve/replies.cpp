@@ -86,10 +86,6 @@ std::pair<double, double> take_slips(std::vector<Flag>& flags) {
 
 bool is_effect_flag(const std::string& key) { return key == "effect"; }
 
-std::string model_of(const Case& question) {
-  return compare::model_in_words(std::string(word_of(question.study.models.front().model)));
-}
-
 /// The question of a query and, where it says beside-soil=NAME, beside-tire=NAME or beside-model=NAME,
 /// a second one with that soil, tire or model.
 std::vector<ServedAnswer> answers_to(const Setup& setup, const std::string& query) {

@@ -11,6 +11,7 @@
 #include "cli/outputs.hpp"
 #include "cli/question.hpp"
 #include "cli/serve/controls.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/mapping_writer.hpp"
@@ -102,6 +103,10 @@ Json models_json() {
 }
 
 }  // namespace
+
+std::string model_of(const Case& question) {
+  return compare::model_in_words(std::string(word_of(question.study.models.front().model)));
+}
 
 Setup::Setup(const Workplace& place, std::string case_name, std::vector<Flag> flags)
     : place_(place), case_name_(std::move(case_name)), start_(std::move(flags)) {

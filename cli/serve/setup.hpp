@@ -24,6 +24,9 @@ struct Asked {
   TireFlags tire;           ///< what of the tire is left out
 };
 
+/// The model of a question of one, in words: "resistive force theory".
+std::string model_of(const Case& question);
+
 class Setup {
  public:
   /// Starts from a case (a name, a path, or "") and flags of `soilbin estimate`: at the first of its conditions whose

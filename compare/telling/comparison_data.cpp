@@ -4,12 +4,14 @@
 #include "compare/discrepancy/comparison.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/report/json_fields.hpp"
+#include "compare/report/number_text.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/comparison_report.hpp"
 #include "compare/telling/loop_report.hpp"
 #include "scenario/csv.hpp"
+#include "scenario/mapping_writer.hpp"
 
 namespace soilbin::compare {
 namespace {

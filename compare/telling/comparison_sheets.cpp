@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "compare/discrepancy/comparison.hpp"
+#include "compare/report/number_text.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/comparison_report.hpp"

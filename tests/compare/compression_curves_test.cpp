@@ -17,6 +17,7 @@
 namespace soilbin::compare {
 namespace {
 
+using test::refusal;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
