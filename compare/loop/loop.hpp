@@ -7,7 +7,7 @@
 //   1 observe            Campaign -> Observations                       fit/observations.hpp
 //   2 fit_base           -> FittedModel: noise, outliers, base fit      attribution/base_fit.hpp, fit/fitted_model.hpp
 //   3 residual_signatures, 4 candidates: attribute -> Attribution       attribution/signatures.hpp, candidates.hpp
-//   5 choose, judge      -> ChosenCandidate, Judgement: the verdict     attribution/choice.hpp
+//   5 choose, judge      -> ChosenCandidate, Judgement: the verdict     attribution/choice.hpp, residual_tests.hpp
 //     and where the residual is more than named effects explain:
 //       attribute_with_model_discrepancy                                attribution/candidates.hpp
 //       learn_effects    smooth functions of the conditions             attribution/learned_effect.hpp

@@ -183,6 +183,13 @@ TEST(Compare, JudgesAHeavyLuggedTireBeyondTheErrorOfItsGrains) {
   EXPECT_EQ(judged, 16) << "the analytic wheel without and with lug_thrust";
 }
 
+// It wrote an empty page and exited with 0.
+TEST(Compare, RefusesACaseThatAsksForADriveAlone) {
+  const Outcome r = soilbin("compare drive-in-grains");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, HasSubstr("the case has no study, it asks for a drive"));
+}
+
 // An effect that the study asks for already stays one side; one more form of it is one side more.
 TEST(Compare, TakesEverySideOnce) {
   const Scratch scratch;
