@@ -141,8 +141,9 @@ struct Slope {
   double angle, base;
 };
 
-/// A line through the flank: from the first ring below `high` to the last above `low`.
-Slope slope_of(const std::vector<HeapProfile>& profile, double low, double high) {
+/// A line through the flank: from the first ring below `high` to the last above `low`. Throws RunStopped with
+/// `why_none` where there are too few or they do not fall outward.
+Slope slope_of(const std::vector<HeapProfile>& profile, double low, double high, const char* why_none) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   bool below = false;
   for (const auto& [x, y] : profile) {
@@ -152,9 +153,18 @@ Slope slope_of(const std::vector<HeapProfile>& profile, double low, double high)
     n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
   }
   const double determinant = n * sxx - sx * sx;
-  if (n < 2 || determinant <= 0) throw RunStopped("the heap is too flat for a slope\n  hint: more grains");
-  const double slope = (n * sxy - sx * sy) / determinant;
+  const double slope = n < 2 || determinant <= 0 ? 0 : (n * sxy - sx * sy) / determinant;
+  if (!(slope < 0)) throw RunStopped(why_none);
   return {std::atan(-slope), (sx - sy / slope) / n};
+}
+
+/// Cohesive grains stand as they were poured, up to the height that their cohesion bears.
+const char* why_no_slope(const GranularSoil& soil) {
+  const ContactPair& contact = soil.grain_grain;
+  return contact.cohesion > 0 || contact.work_of_adhesion > 0 ? "the heap has no slope: its grains' cohesion holds up "
+                                                                "its wall\n  hint: the soil's file without cohesion "
+                                                                "between its grains tells what friction alone does"
+                                                              : "the heap is too flat for a slope\n  hint: more grains";
 }
 
 void Heap::measure(AngleOfReposeResult& result) const {
@@ -164,10 +174,10 @@ void Heap::measure(AngleOfReposeResult& result) const {
   for (const HeapProfile& ring : result.profile) result.height = std::max(result.height, ring.height);
   while (!result.profile.empty() && result.profile.back().height < 0.01 * d_) result.profile.pop_back();
   const double low = settings_.from * result.height, high = settings_.to * result.height;
-  result.base = slope_of(result.profile, low, high).base;
+  result.base = slope_of(result.profile, low, high, why_no_slope(soil_)).base;
   double sum = 0, squares = 0;
   for (int k = 0; k < settings_.sectors; ++k) {
-    const double angle = slope_of(profile_of(seen, k, settings_.sectors, wide), low, high).angle;
+    const double angle = slope_of(profile_of(seen, k, settings_.sectors, wide), low, high, why_no_slope(soil_)).angle;
     result.by_sector.push_back(angle);
     sum += angle, squares += angle * angle;
   }

