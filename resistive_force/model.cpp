@@ -114,6 +114,9 @@ TractionResult ResistiveForce::evaluate(const Scenario& scenario, const Operatin
   result.torque.value = balance.forces.torque;
   result.sinkage.value = balance.sinkage;
   add_errors(result, balance, soil);
+  constexpr double rounding = 1e-12;  // of the load: what triangles that are no mirror images leave of a balance
+  if (std::abs(force.left) < rounding * at.load && result.lateral_force.std_error < rounding * at.load)
+    result.lateral_force = {};
   result.tractive_efficiency = tractive_efficiency(result, scenario.tire.radius);
   add_budget(result, wheel, balance, medium);
   add_stresses(result, wheel, medium, scenario.tire);

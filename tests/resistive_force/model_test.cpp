@@ -33,6 +33,19 @@ TEST(ResistiveForce, HasABudgetThatAddsUp) {
   EXPECT_NEAR(r.budget.back().force, -150 * std::sin(10 * degree), 1e-9);
 }
 
+// The triangles of a drawing are no mirror images, elements left and right are summed in another order.
+TEST(ResistiveForce, OfADrawingHasNoSideForceStraightAhead) {
+  const Scenario scenario = on_sand();
+  TreadElements drawn = tread_elements(scenario.tire);
+  for (Element& element : drawn.all) element.place.y += 1e-16, element.normal.y *= 1 - 1e-15;
+  OperatingCondition straight = uphill;
+  straight.yaw = 0;
+  const TractionResult result = ResistiveForce(drawn).evaluate(scenario, straight);
+  EXPECT_EQ(result.lateral_force.value, 0);
+  EXPECT_EQ(result.lateral_force.std_error, 0);
+  EXPECT_NEAR(result.drawbar_pull.value, ResistiveForce().evaluate(scenario, straight).drawbar_pull.value, 1e-9);
+}
+
 TEST(ResistiveForce, TurnsItsForcesToTheWheelsAxes) {
   OperatingCondition in_wheel = uphill;
   in_wheel.force_frame = ForceFrame::wheel;
