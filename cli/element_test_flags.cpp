@@ -75,20 +75,28 @@ void PlateFlags::add_to(CLI::App& command) {
             "plates: how deep they are pressed; 2 mean diameters of the grains");
 }
 
+namespace {
+
+/// The diameter of a tool in mean diameters of the grains. Throws InputError for one narrower than narrowest_tool.
+double tool_in_grains(const char* flag, const std::string& text, const GranularSoil& soil) {
+  const double grain = mean_diameter(soil), tool = read_flag(flag, text, {"mm", above_zero}) / grain;
+  if (tool < dem::narrowest_tool)
+    throw InputError(
+        fmt::format("{} {} is narrower than {:.3g} grains, of {} mm on average: single grains would carry it", flag,
+                    text, dem::narrowest_tool, compare::number(1e3 * grain)));
+  return tool;
+}
+
+}  // namespace
+
 dem::PlateSettings PlateFlags::plates(const GranularSoil& soil) const {
   const Measure length{"mm", above_zero};
-  const double grain = mean_diameter(soil);
   dem::PlateSettings out;
   if (!diameters.empty()) out.diameters.clear();
   for (const std::string& flag : diameters)
-    for (const std::string& text : several_values("--plate", flag, length)) {
-      out.diameters.push_back(read_flag("--plate", text, length) / grain);
-      if (out.diameters.back() < dem::narrowest_tool)
-        throw InputError(
-            fmt::format("--plate {} is narrower than {:.3g} grains, of {} mm on average: single grains would carry it",
-                        text, dem::narrowest_tool, compare::number(1e3 * grain)));
-    }
-  if (!sinkage.empty()) out.sinkage = read_flag("--plate-sinkage", sinkage, length) / grain;
+    for (const std::string& text : several_values("--plate", flag, length))
+      out.diameters.push_back(tool_in_grains("--plate", text, soil));
+  if (!sinkage.empty()) out.sinkage = read_flag("--plate-sinkage", sinkage, length) / mean_diameter(soil);
   return out;
 }
 
@@ -98,16 +106,11 @@ void ConeFlags::add_to(CLI::App& command) {
 }
 
 dem::ConeSettings ConeFlags::cone(const GranularSoil& soil) const {
-  const Measure length{"mm", above_zero};
-  const double grain = mean_diameter(soil);
   dem::ConeSettings out;
-  if (!diameter.empty()) out.diameter = read_flag("--cone", diameter, length) / grain;
-  if (out.diameter < dem::narrowest_tool)
-    throw InputError(
-        fmt::format("--cone {} is narrower than {:.3g} grains, of {} mm on average: single grains would carry it",
-                    diameter, dem::narrowest_tool, compare::number(1e3 * grain)));
+  if (!diameter.empty()) out.diameter = tool_in_grains("--cone", diameter, soil);
   const double usual = out.depth;
-  if (!depth.empty()) out.depth = read_flag("--cone-depth", depth, length) / (out.diameter * grain);
+  if (!depth.empty())
+    out.depth = read_flag("--cone-depth", depth, {"mm", above_zero}) / (out.diameter * mean_diameter(soil));
   out.bed.depth += out.depth - usual;
   return out;
 }

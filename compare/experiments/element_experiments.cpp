@@ -225,9 +225,10 @@ VirtualTest curve_test(const ElementExperiment& experiment, const ContactQuestio
   std::vector<AlikeSpecimens> densities;
   for (const auto& tests : by_density(question.curves))
     densities.push_back({tests, pressed_as(tests, usual), settling_factor_of(question.curves, tests)});
-  Identity identity = identity_of("triaxial curves", experiment, pressed_as(question.curves, usual), Strength::peak);
-  add_sides(identity, pressed_as(question.curves, usual));
-  identity.add("samples", densities.front().settings.samples);
+  const dem::TriaxialSettings all = pressed_as(question.curves, usual);
+  Identity identity = identity_of("triaxial curves", experiment, all, Strength::peak);
+  add_sides(identity, all);
+  identity.add("samples", all.samples);
   add_tests(identity, densities);
   VirtualTest test = test_of(experiment, identity.text());
   test.run = [=](const VectorXd& values, std::uint64_t seed) {

@@ -169,10 +169,11 @@ TurnAnswers turn_of(const VehicleCase& question, const std::vector<VehicleWheel>
   }
   if (answers.turn) answers.errors = errors_of_steady(question, wheels, model, answers.turn->vehicle.at);
   answers.tightest_error = not_a_number;
-  if (answers.tightest && answers.end.limit == TurnLimit::steering)
-    answers.tightest_error = error_of_radius(
-        *answers.tightest, errors_of_steady(question, wheels, model, answers.tightest->vehicle.at).steering,
-        SteadyVehicles(question, wheels, model));
+  if (!answers.tightest || answers.end.limit != TurnLimit::steering) return answers;
+  const bool is_asked = !asked.radius && !asked.steer;
+  const SteadyErrors errors =
+      is_asked ? answers.errors : errors_of_steady(question, wheels, model, answers.tightest->vehicle.at);
+  answers.tightest_error = error_of_radius(*answers.tightest, errors.steering, SteadyVehicles(question, wheels, model));
   return answers;
 }
 
