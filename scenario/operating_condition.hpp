@@ -38,6 +38,9 @@ struct OperatingCondition {
   std::optional<int> run{};          ///< order in which the runs were made
   /// Inflation pressure in this run, in place of the tire's own [Pa]; absent: as declared (tire_at).
   std::optional<double> inflation_pressure{};
+  /// What the wheel that made the rut carried there [N] and at which slip [-]; absent: as this one. A vehicle tells
+  /// them to the wheels behind its first axle; files and flags do not.
+  std::optional<double> rut_load{}, rut_slip{};
 
   /// Member by member: equal where every number is the same, sorted as a tuple.
   auto operator<=>(const OperatingCondition&) const = default;

@@ -4,8 +4,8 @@
 // Its contact is shorter too, so at small slip, where that leaves the shear less mobilised, a rut that is only stiffer
 // can cost pull; at large slip it always gives some. What 'sinkage' shows depends on where it is counted from: from
 // the rut's floor it falls with the pass, from the undisturbed surface (conventions.md) it grows. There are forms for
-// both. The rut left by the passes before is taken as deep as Bekker's static sinkage of the same load: neither their
-// load nor their slip is known.
+// both. The rut left by the passes before is taken as deep as Bekker's static sinkage of the load that they carried,
+// which is the wheel's own where the condition tells no rut_load; so with their slip (rut_slip).
 #include <algorithm>
 #include <cmath>
 
@@ -52,7 +52,9 @@ class Reload final : public Effect {
 
  private:
   static double rut(const Surroundings& around) {
-    return bekker_static_sinkage(around.declared, around.tire.radius, around.tire.width, around.normal_load);
+    const OperatingCondition& at = around.at;
+    const double load = at.rut_load ? around.normal_load * (*at.rut_load / at.load) : around.normal_load;
+    return load > 0.0 ? bekker_static_sinkage(around.declared, around.tire.radius, around.tire.width, load) : 0.0;
   }
   double left_by_passes(const Surroundings& around) const {
     const double share = amplitude_ * compacted(around, p0_);
@@ -71,7 +73,7 @@ class SlipHardening final : public Effect {
   void soil(SoilValues& soil, const Surroundings& around) const override {
     if (passes_before(around) == 0.0) return;
     const double passes = compacted(around, p0_) / -std::expm1(-1 / p0_);
-    const double worked = -std::expm1(-std::abs(around.motion.slip) / s1_);
+    const double worked = -std::expm1(-std::abs(around.at.rut_slip.value_or(around.motion.slip)) / s1_);
     const double factor = 1 + amplitude_ * (worked + per_pass_ * passes);
     scale_stiffness(soil, factor);
     soil.cohesion *= factor;

@@ -137,7 +137,7 @@ Table wheels_table(const VehicleAnswers& answers) {
     const TractionResult& r = wheel.result;
     if (wheel.lifted) {
       table.add({answers.wheels[i].name, "0", "off the ground", "-", "-", "-", "-", "-",
-                 std::to_string(answers.wheels[i].pass)});
+                 std::to_string(answers.wheels[i].pass())});
       continue;
     }
     const SteadyErrors::Wheel e = i < answers.errors.wheels.size() ? answers.errors.wheels[i] : SteadyErrors::Wheel{};
@@ -149,7 +149,7 @@ Table wheels_table(const VehicleAnswers& answers) {
                number({r.sinkage.value, told_error(e.sinkage)}, 1e3),
                number(r.contact_area * 1e4),
                number(wheel.normal_load / r.contact_area * 1e-3),
-               std::to_string(answers.wheels[i].pass)});
+               std::to_string(answers.wheels[i].pass())});
   }
   table.legend = "Load: normal to the ground. Pull: less the slope's share of the wheel's load.";
   return table;
@@ -187,7 +187,7 @@ Table pulls_table(const VehicleAnswers& answers) {
 
 std::vector<std::string> vehicle_remarks(const VehicleAnswers& answers) {
   std::vector<std::string> said;
-  const bool ruts = std::ranges::any_of(answers.wheels, [](const VehicleWheel& wheel) { return wheel.pass > 1; });
+  const bool ruts = std::ranges::any_of(answers.wheels, [](const VehicleWheel& wheel) { return wheel.pass() > 1; });
   const auto& effects = answers.question.effects;
   const bool read = std::ranges::any_of(effects, [](const EffectChoice& effect) {
     return bekker_wong::depends_on(bekker_wong::find_form(effect), "pass");
@@ -197,8 +197,8 @@ std::vector<std::string> vehicle_remarks(const VehicleAnswers& answers) {
         "Wheels in ruts roll as on undisturbed soil: no effect reads the pass. Add multipass to the effects.");
   if (ruts && read)
     said.emplace_back(
-        "In a rut the effect multipass knows the number of the pass; load and slip of the wheel before are taken as "
-        "those of the wheel itself.");
+        "In a rut the forms reload of multipass take the load of the heaviest wheel before, slip_hardening the slip of "
+        "the last one; its other forms know the number of the pass alone.");
   const std::optional<double> slides =
       bekker_wong::sliding_slope(answers.question.soil, answers.question.axles.front().tire);
   if (slides &&
@@ -304,7 +304,7 @@ Sheet vehicle_sheet(const VehicleAnswers& answers) {
 Json wheel_json(const VehicleWheel& about, const SteadyWheel& wheel, const SteadyErrors::Wheel& e) {
   const TractionResult& r = wheel.result;
   const auto estimate = [](double value, double error) { return estimate_json({value, error}); };
-  Json json = {{"wheel", about.name}, {"pass", about.pass}, {"off_the_ground", wheel.lifted}};
+  Json json = {{"wheel", about.name}, {"pass", about.pass()}, {"off_the_ground", wheel.lifted}};
   json["normal_load"] = estimate(wheel.normal_load, e.normal_load);
   if (wheel.lifted) return json;
   json["load"] = r.at.load;

@@ -173,7 +173,7 @@ std::vector<std::string> turn_remarks(const TurnAnswers& answers) {
     said.emplace_back(
         "The moment with which the soil resists a wheel's turning on the spot is not in the model; it matters where "
         "contacts are long beside the wheelbase.");
-  if (std::ranges::any_of(answers.wheels, [](const VehicleWheel& wheel) { return wheel.pass > 1; }))
+  if (std::ranges::any_of(answers.wheels, [](const VehicleWheel& wheel) { return wheel.pass() > 1; }))
     said.emplace_back("Rear wheels are taken to roll in ruts as straight on; in a tight turn they leave them.");
   return said;
 }

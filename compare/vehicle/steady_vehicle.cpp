@@ -181,6 +181,14 @@ void SteadyVehicles::roll_axle(std::size_t axle, double slip, const Rims& rims, 
   std::vector<std::size_t> mine;
   for (std::size_t i = 0; i < wheels_.size(); ++i)
     if (wheels_[i].axle == axle) mine.push_back(i);
+  for (const std::size_t i : mine) {  // the heaviest wheel made the rut; the last one left its soil as it is
+    double heaviest = 0.0;
+    for (const std::size_t before : wheels_[i].in_rut_of) {
+      const OperatingCondition& was = wheels[before].result.at;
+      if (!wheels[before].lifted) heaviest = std::max(heaviest, was.load), at[i].rut_slip = was.slip;
+    }
+    if (heaviest > 0.0) at[i].rut_load = heaviest;
+  }
   const auto no_torque = [](double) { return 0.0; };
   /// The slip at a rim speed `faster` times that of the drive line.
   const auto slip_at = [&](std::size_t i, double faster) {
@@ -257,10 +265,11 @@ SteadyVehicles::Trial SteadyVehicles::trial(const VehicleCondition& at, double s
                           .longitudinal_incline = a,
                           .transverse_incline = b,
                           .yaw = std::clamp(v.crab + turning.steer[i] - turning.headings[i], -across, across),
-                          .pass = wheel.pass});
+                          .pass = wheel.pass()});
   }
   v.wheels.resize(wheels_.size());
-  for (std::size_t axle = 0; axle < vehicle_.axles.size(); ++axle) roll_axle(axle, slip, rims, conditions, v.wheels);
+  for (std::size_t i = 0; i < wheels_.size(); ++i)  // from the front: a rut is what the wheels before have made of it
+    if (i == 0 || wheels_[i].axle != wheels_[i - 1].axle) roll_axle(wheels_[i].axle, slip, rims, conditions, v.wheels);
 
   double pull = 0.0, left = 0.0, load = 0.0;
   std::vector<VehiclePoint> sunk;

@@ -125,7 +125,7 @@ std::vector<VehicleWheel> wheels_of(const VehicleCase& vehicle) {
   for (std::size_t i = 0; i < vehicle.axles.size(); ++i) {
     const VehicleAxle& axle = vehicle.axles[i];
     const auto add = [&](const std::string& name, double y) {
-      wheels.push_back({name, i, {axle.x, y, axle.tire.radius}, 1, {axle.tire, vehicle.soil, {}, vehicle.effects}});
+      wheels.push_back({name, i, {axle.x, y, axle.tire.radius}, {axle.tire, vehicle.soil, {}, vehicle.effects}});
     };
     if (axle.track) {
       add(axle.name + " left", axle.y + *axle.track / 2);
@@ -136,9 +136,11 @@ std::vector<VehicleWheel> wheels_of(const VehicleCase& vehicle) {
   }
   std::ranges::stable_sort(wheels, [](const VehicleWheel& a, const VehicleWheel& b) { return a.place.x > b.place.x; });
   for (VehicleWheel& wheel : wheels)
-    for (const VehicleWheel& before : wheels)
-      wheel.pass += before.place.x > wheel.place.x + 1e-9 &&
-                    std::abs(before.place.y - wheel.place.y) < before.scenario.tire.width / 2;
+    for (std::size_t i = 0; i < wheels.size(); ++i)
+      if (const VehicleWheel& before = wheels[i];
+          before.place.x > wheel.place.x + 1e-9 &&
+          std::abs(before.place.y - wheel.place.y) < before.scenario.tire.width / 2)
+        wheel.in_rut_of.push_back(i);
   return wheels;
 }
 
@@ -151,7 +153,7 @@ Doubts declare_tires(std::vector<VehicleWheel>& wheels, const TireLeftOut& left_
     question.scenario.effects.clear();
     question.study.models.emplace_back().effects = wheel.scenario.effects;
     label_models(question.study.models);
-    question.study.conditions.push_back({.load = 1.0, .pass = wheel.pass});
+    question.study.conditions.push_back({.load = 1.0, .pass = wheel.pass()});
     Doubts doubts = as_declared(question, left_out);
     wheel.scenario.tire = question.scenario.tire;
     wheel.scenario.effects = question.study.models.front().effects;

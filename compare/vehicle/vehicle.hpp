@@ -212,8 +212,10 @@ struct VehicleWheel {
   std::string name{};  ///< "front left"
   std::size_t axle = 0;
   VehiclePoint place{};  ///< its axle's end: z is the tire's radius
-  int pass = 1;          ///< 1 and the wheels that rolled in its rut before
   Scenario scenario{};   ///< its tire on the soil, with the vehicle's effects and those that its tire declares
+  std::vector<std::size_t> in_rut_of{};  ///< wheels that rolled in its rut before, from the front, by their place
+
+  int pass() const { return 1 + static_cast<int>(in_rut_of.size()); }
 };
 
 /// Its wheels from the front to the rear, the left one first. A wheel is in the rut of one before it where less than

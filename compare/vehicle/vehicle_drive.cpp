@@ -101,7 +101,7 @@ void require_both_sides_alike(const VehicleCase& question, const std::vector<Veh
       throw InputError(alike + ("axle '" + axle.name + "' does not lie below its centre of gravity"));
   for (const VehicleWheel& wheel : wheels)
     for (const VehicleWheel& other : wheels)
-      if (wheel.axle == other.axle && wheel.pass != other.pass)
+      if (wheel.axle == other.axle && wheel.pass() != other.pass())
         throw InputError(alike + ("of axle '" + question.axles[wheel.axle].name + "' one wheel alone is in a rut"));
 }
 
@@ -230,7 +230,7 @@ void VehicleRide::build(const std::vector<VehicleWheel>& wheels, const bekker_wo
     Scenario scenario = wheels[first[axle]].scenario;
     Drive drive;
     drive.effects = std::exchange(scenario.effects, {});
-    drive.load = load, drive.mass = load / gravity, drive.pass = wheels[first[axle]].pass;
+    drive.load = load, drive.mass = load / gravity, drive.pass = wheels[first[axle]].pass();
     drive.inertia = question_.axles[axle].inertia;
     drive.duration = question_.drive.duration, drive.damping = question_.drive.damping;
     drive.stuck_speed = stuck_speed_, drive.controller = controller;

@@ -95,7 +95,7 @@ Inputs run_inputs(const BedRecipe& recipe, const Tire& tire, const Rig& rig) {
 std::string inputs_text(const BedRecipe& recipe, const Tire& tire, const ContactPair& tire_contact, const Rig& rig,
                         const OperatingCondition& at) {
   const auto& [load, slip, speed, longitudinal_incline, transverse_incline, yaw, pass, slip_by, force_frame, moisture,
-               position, run, inflation_pressure] = at;  // the last four are of campaigns and of the analytic wheel
+               position, run, inflation_pressure, rut_load, rut_slip] = at;  // from moisture on: not of grains
   Inputs inputs = inputs_with_contact(recipe, tire, tire_contact, rig);
   add(inputs, "at.load", load), add(inputs, "at.slip", slip), add(inputs, "at.speed", speed);
   add(inputs, "at.longitudinal_incline", longitudinal_incline);

@@ -25,7 +25,7 @@ constexpr const char* answer_mark = "soilbin-wheel-answer/1 ";
 template <class Notes>
 void parts(Notes& notes, OperatingCondition& at) {
   auto& [load, slip, speed, longitudinal_incline, transverse_incline, yaw, pass, slip_by, force_frame, moisture,
-         position, run, inflation_pressure] = at;  // grains meet a rigid tire
+         position, run, inflation_pressure, rut_load, rut_slip] = at;  // grains meet a rigid tire
   notes(load, slip, speed, longitudinal_incline, transverse_incline, yaw, pass, slip_by, force_frame, moisture,
         position, run);
 }

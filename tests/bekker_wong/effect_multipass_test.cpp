@@ -66,6 +66,33 @@ TEST(Multipass, TotalRutDepthGrowsWhereTheForcesAreThoseOfTheReloadedSoil) {
   EXPECT_GT(total.sinkage, base(pass(1)).sinkage);
 }
 
+// What the wheel before carried makes the rut: a vehicle tells it. Its own load told is no news, no load leaves no rut.
+TEST(Multipass, TheRutIsThatOfTheLoadBefore) {
+  OperatingCondition at = pass(3);
+  const EffectChoice reload{"multipass", "reload", {}}, total{"multipass", "reload_from_surface", {}};
+  at.rut_load = 800;
+  EXPECT_EQ(with(reload, at).drawbar_pull, with(reload, pass(3)).drawbar_pull);
+  at.rut_load = 0;
+  EXPECT_EQ(with(reload, at).drawbar_pull, base(pass(1)).drawbar_pull);
+  at.rut_load = 1200;
+  const double left = 0.6 * (1 - std::exp(-2.0)) * bekker_static_sinkage(sand(), radius, width, 1200);
+  EXPECT_NEAR(with(total, at).sinkage, with(reload, at).sinkage + left, 1e-14);
+  EXPECT_LT(with(reload, at).sinkage, with(reload, pass(3)).sinkage);
+}
+
+// Behind a towed wheel without slip only the pass has hardened the soil: f = 1 + a q.
+TEST(Multipass, TheSoilIsHardenedByTheSlipBefore) {
+  const EffectChoice choice{"multipass", "slip_hardening", {}};
+  OperatingCondition at = pass(2, 0.4);
+  at.rut_slip = 0.4;
+  EXPECT_EQ(with(choice, at).drawbar_pull, with(choice, pass(2, 0.4)).drawbar_pull);
+  at.rut_slip = 0.0;
+  SoilValues soil = sand();
+  const double f = 1 + 0.3 * 0.3;
+  soil.k_c *= f, soil.k_phi *= f, soil.cohesion *= f, soil.density *= f, soil.shear_modulus /= f;
+  EXPECT_NEAR(with(choice, at).drawbar_pull, roll(soil, {}, pass(2, 0.4)).drawbar_pull, 1e-9);
+}
+
 // The rut left before (h), the elastic share (e z_p) and the depth all scale with the static sinkage, so the sinkage of
 // the second pass is about the same share of the first's at every load.
 TEST(Multipass, ReloadGainIsAboutTheSameShareAtEveryLoad) {

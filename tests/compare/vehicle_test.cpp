@@ -281,15 +281,60 @@ TEST(Vehicle, AMotorGivesNoMoreThanItsLargestTorque) {
 TEST(Vehicle, RearWheelsRollInTheRutsOfThoseBefore) {
   VehicleCase question = rover();
   question.effects = {{"multipass", "stiffer", {}}};
-  EXPECT_THAT(wheels_of(question),
-              testing::ElementsAre(testing::Field(&VehicleWheel::pass, 1), testing::Field(&VehicleWheel::pass, 1),
-                                   testing::Field(&VehicleWheel::pass, 2), testing::Field(&VehicleWheel::pass, 2)));
+  EXPECT_THAT(
+      wheels_of(question),
+      testing::ElementsAre(testing::Property(&VehicleWheel::pass, 1), testing::Property(&VehicleWheel::pass, 1),
+                           testing::Property(&VehicleWheel::pass, 2), testing::Property(&VehicleWheel::pass, 2)));
   const auto wheels = wheels_of(question);
   question.centre_of_gravity.x = 0.6;
   const SteadyVehicle v = SteadyVehicles(question, wheels, soft).at_slip({}, 0.0);
   EXPECT_GT(v.wheels[0].result.sinkage.value, v.wheels[2].result.sinkage.value);
   question.axles[1].track = 1.1;  // beside the ruts
-  EXPECT_EQ(wheels_of(question)[2].pass, 1);
+  EXPECT_EQ(wheels_of(question)[2].pass(), 1);
+}
+
+// The rear wheels are single wheels on their second pass, told what rolled before them.
+TEST(Vehicle, ARutIsWhatTheWheelBeforeHasMadeOfIt) {
+  VehicleCase question = rover();
+  question.axles[0].driven = YesNo::no;
+  question.centre_of_gravity.x = 0.6;
+  for (const char* form : {"reload", "slip_hardening"}) {
+    SCOPED_TRACE(form);
+    question.effects = {{"multipass", form, {}}};
+    const auto wheels = wheels_of(question);
+    const SteadyVehicle v = SteadyVehicles(question, wheels, soft).at_slip({}, 0.3);
+    const TractionResult &front = v.wheels[0].result, &rear = v.wheels[2].result;
+    EXPECT_NE(front.at.load, rear.at.load);
+    EXPECT_LT(front.at.slip, 0.0);
+    OperatingCondition alone = rear.at;
+    EXPECT_EQ(alone.rut_load, front.at.load);
+    EXPECT_EQ(alone.rut_slip, front.at.slip);
+    EXPECT_EQ(soft.evaluate(wheels[2].scenario, alone).drawbar_pull.value, rear.drawbar_pull.value);
+    alone.rut_load.reset(), alone.rut_slip.reset();
+    EXPECT_NE(soft.evaluate(wheels[2].scenario, alone).drawbar_pull.value, rear.drawbar_pull.value);
+
+    std::swap(question.axles[0], question.axles[1]);  // the order of a file is not that of the road
+    const auto swapped = wheels_of(question);
+    const SteadyVehicle same = SteadyVehicles(question, swapped, soft).at_slip({}, 0.3);
+    EXPECT_NEAR(same.pull, v.pull, 1e-9);
+    std::swap(question.axles[0], question.axles[1]);
+  }
+}
+
+// A third wheel rolls in what the heaviest has pressed and the last one has sheared.
+TEST(Vehicle, TheHeaviestWheelMakesTheRut) {
+  VehicleCase question = rover();
+  question.effects = {{"multipass", "reload", {}}};
+  VehicleAxle tag = question.axles[1];
+  tag.x -= 0.8;
+  question.axles.push_back(tag);
+  question.axles[0].stiffness = 3.0, question.axles[1].stiffness = 1.0, question.axles[2].stiffness = 1.0;
+  question.axles[1].driven = YesNo::no;
+  const auto wheels = wheels_of(question);
+  const SteadyVehicle v = SteadyVehicles(question, wheels, soft).at_slip({}, 0.2);
+  ASSERT_GT(v.wheels[0].result.at.load, v.wheels[2].result.at.load);
+  EXPECT_EQ(v.wheels[4].result.at.rut_load, v.wheels[0].result.at.load);
+  EXPECT_EQ(v.wheels[4].result.at.rut_slip, v.wheels[2].result.at.slip);
 }
 
 TEST(Vehicle, SaysWhichWheelGaveOut) {

@@ -59,6 +59,19 @@ TEST(WheelMotion, YawTurnsTheWheelToTheLeft) {
   EXPECT_NEAR(wheel.lateral, -travel.drawbar_pull * std::sin(at.yaw) + travel.lateral * std::cos(at.yaw), 1e-12);
 }
 
+// As CMU's wheels did: across its travel a wheel still turns, and its slip is that of the whole speed.
+TEST(WheelMotion, StandsAcrossItsTravelWhereSlipIsByTravelSpeed) {
+  OperatingCondition at = condition(1, 0.2, 1);
+  at.yaw = 90 * degree;
+  EXPECT_THROW(wheel_motion(at, 0.5), InputError);
+  at.slip_by = SlipBy::travel_speed;
+  const WheelMotion motion = wheel_motion(at, 0.5);
+  EXPECT_NEAR(motion.rotation, 1 / (0.5 * 0.8), 1e-12);
+  EXPECT_NEAR(motion.heading.y, 1, 1e-15);
+  at.yaw = 91 * degree;
+  EXPECT_THROW(wheel_motion(at, 0.5), InputError);
+}
+
 TEST(WheelMotion, RefusesWhatCannotBeRun) {
   EXPECT_THROW(wheel_motion(condition(0, 0, 1), 0.5), InputError);
   EXPECT_THROW(wheel_motion(condition(1, 1, 1), 0.5), InputError);
