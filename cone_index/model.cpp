@@ -70,7 +70,8 @@ TractionResult ConeIndex::evaluate(const Scenario& scenario, const OperatingCond
   const Tire tire = tire_at(scenario.tire, at);
   const double pressing = at.load * std::cos(at.longitudinal_incline);
   const MobilityNumber number = mobility_number(scenario.soil, tire_taken(tire, pressing).measures, pressing);
-  const Ratios ratios = number.sand ? turnage(number.value, at.slip) : brixius(number.value, at.slip);
+  const Ratios ratios =
+      number.sand ? turnage(number.value, at.slip) : brixius(number.value, at.slip, tire.construction);
   if (!(ratios.resistance < 1.0))
     throw NoSolution(
         fmt::format("the mobility number is {:.3g}: by the relation the wheel would resist its motion "

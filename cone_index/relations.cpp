@@ -9,13 +9,14 @@ double brixius_number(double cone_index, const TireMeasures& tire, double load) 
          (1.0 + 3.0 * tire.width / tire.diameter);
 }
 
-Ratios brixius(double number, double slip) {
-  constexpr double rolling = 0.04;
-  const double by_slip = 0.88 * -std::expm1(-7.5 * slip);
+Ratios brixius(double number, double slip, Construction construction) {
+  const bool radial = construction == Construction::radial;
+  const double by_slip = 0.88 * -std::expm1(-(radial ? 9.5 : 7.5) * slip);
+  const double rolling = radial ? 0.0325 : 0.04, sinking = radial ? 0.9 : 1.0;
   return {.gross = by_slip * -std::expm1(-0.1 * number) + rolling,
-          .resistance = 1.0 / number + rolling + 0.5 * slip / std::sqrt(number),
+          .resistance = sinking / number + rolling + 0.5 * slip / std::sqrt(number),
           .gross_slope = by_slip * 0.1 * std::exp(-0.1 * number),
-          .resistance_slope = -1.0 / (number * number) - 0.25 * slip / (number * std::sqrt(number))};
+          .resistance_slope = -sinking / (number * number) - 0.25 * slip / (number * std::sqrt(number))};
 }
 
 double turnage_number(double gradient, const TireMeasures& tire, double load) {

@@ -6,6 +6,8 @@
 //   brixius(number, 0.1).net()                                // 0.198 of the load
 #pragma once
 
+#include "scenario/tire.hpp"
+
 namespace soilbin::cone_index {
 
 /// What the relations read of a tire [m], all > 0.
@@ -34,14 +36,17 @@ struct Ratios {
 /// ASAE paper 87-1622.
 double brixius_number(double cone_index, const TireMeasures& tire, double load);
 
-/// At a slip s of 0 .. 1 and B_n > 0, after the same paper,
+/// At a slip s of 0 .. 1 and B_n > 0,
 ///
-///   gross = 0.88 (1 - e^(-0.1 B_n)) (1 - e^(-7.5 s)) + 0.04,   resistance = 1/B_n + 0.04 + 0.5 s/sqrt(B_n).
+///   gross = 0.88 (1 - e^(-0.1 B_n)) (1 - e^(-q s)) + r,   resistance = m/B_n + r + 0.5 s/sqrt(B_n),
 ///
-/// 0.04 is what the tire itself takes to roll: the torque gives it, and it does not reach the drawbar, so it stands in
-/// both and cancels. A public code (MAVS, brixius.cpp, after Pan et al. 2004) has it in the resistance alone: its net
-/// traction is 0.04 less.
-Ratios brixius(double number, double slip);
+/// of bias-ply tires, and of an unknown construction, q = 7.5, r = 0.04, m = 1, after Brixius (1987); of radial ones
+/// q = 9.5, r = 0.0325, m = 0.9, after Zoz and Grisso (2003), Traction and tractor performance, ASAE 913C0403, from
+/// memory; a public code (MAVS, brixius.cpp) has the r and m of radial tires and q = 10.5.
+///
+/// r is what the tire itself takes to roll: the torque gives it, and it does not reach the drawbar, so it stands in
+/// both and cancels. MAVS, after Pan et al. 2004, has it in the resistance alone: its net traction is r less.
+Ratios brixius(double number, double slip, Construction construction = Construction::bias_ply);
 
 /// Turnage's mobility number of sand [-],
 ///

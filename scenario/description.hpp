@@ -49,6 +49,10 @@ constexpr std::array<Word<LugPattern>, 4> words_of(std::type_identity<LugPattern
            {"staggered", LugPattern::staggered}}};
 }
 
+constexpr std::array<Word<Construction>, 3> words_of(std::type_identity<Construction>) {
+  return {{{"unknown", Construction::unknown}, {"bias_ply", Construction::bias_ply}, {"radial", Construction::radial}}};
+}
+
 constexpr std::array<Word<SlipBy>, 2> words_of(std::type_identity<SlipBy>) {
   return {{{"wheel_plane_speed", SlipBy::wheel_plane_speed}, {"travel_speed", SlipBy::travel_speed}}};
 }
@@ -147,7 +151,8 @@ void describe(Visitor& v, std::type_identity<Tire>) {
   v.text("source", &Tire::source, Need::optional, "where the wheel as a whole is described");
   v.number("radius", &Tire::radius, Measure{"mm", above_zero}, Need::required,
            "radius to the tread base, without lugs");
-  v.number("width", &Tire::width, Measure{"mm", above_zero}, Need::required, "width of the tread");
+  v.number("width", &Tire::width, Measure{"mm", above_zero}, Need::required,
+           "width of the tread; of a tire by its size alone the section's");
   v.group("lugs", &Tire::lugs, Need::optional, "lugs or grousers; absent: smooth");
   v.number("inflation_pressure", &Tire::inflation_pressure, Measure{"kPa", zero_or_more}, Need::optional,
            "read by the effect tire_flexibility alone; without it the wheel is rigid");
@@ -157,6 +162,8 @@ void describe(Visitor& v, std::type_identity<Tire>) {
           "the maker's load-deflection table: a CSV with columns such as load_kN, pressure_kPa, deflection_mm");
   v.number("section_height", &Tire::section_height, Measure{"mm", above_zero}, Need::optional,
            "from the rim to the tread; read by the model cone_index alone");
+  v.choice("construction", &Tire::construction, Need::optional,
+           "how its plies run; read by the model cone_index alone");
 }
 
 template <class Visitor>

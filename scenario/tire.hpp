@@ -34,6 +34,13 @@ struct Lugs {
   std::optional<double> angle = {};  ///< [rad] between a bar and the axle, where the pattern has one
 };
 
+/// How the plies of a pneumatic tire's carcass run. The model cone_index alone asks for it.
+enum class Construction {
+  unknown,
+  bias_ply,  ///< crossed plies, belted or not
+  radial,
+};
+
 /// One row of a tire maker's load-deflection table, measured on firm flat ground.
 struct TireDeflection {
   double load = 0.0;        ///< W [N], > 0
@@ -50,8 +57,9 @@ struct DeflectionTable {
 /// The key of Tire::carcass_pressure in files, and its name among the values that a fit found.
 inline constexpr const char* carcass_pressure_key = "carcass_pressure";
 
-/// The keys of Tire::deflection and Tire::section_height in files.
+/// The keys of Tire::deflection, Tire::construction and Tire::section_height in files.
 inline constexpr const char* deflection_key = "deflection";
+inline constexpr const char* construction_key = "construction";
 inline constexpr const char* section_height_key = "section_height";
 
 /// A wheel as the soil meets it. Radius and width belong to the tread base, without lugs.
@@ -67,6 +75,7 @@ struct Tire {
   std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "lugs.height"
   /// From the rim to the tread [m]; absent: the model cone_index, which alone reads it, assumes one.
   std::optional<double> section_height{};
+  Construction construction = Construction::unknown;
 };
 
 /// To the tips of the lugs [m].

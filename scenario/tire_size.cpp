@@ -34,6 +34,7 @@ struct Size {
   double width = 0.0;     ///< [mm] from 100 on, below that [in]
   double aspect = 0.0;    ///< [%]; 0: not told
   double rim = 0.0;       ///< [in]
+  Construction construction = Construction::bias_ply;
   std::string width_text{};
 };
 
@@ -47,14 +48,15 @@ struct Size {
 
 Size read(const std::string& text) {
   static const std::string number = R"(([0-9]+(?:\.[0-9]+)?))";
-  static const std::regex pattern("(?:IF|VF|CFO|LT|P)?" + number + "(?:([/X])" + number + ")?(?:R|ZR|B|D|-)" + number +
+  static const std::regex pattern("(?:IF|VF|CFO|LT|P)?" + number + "(?:([/X])" + number + ")?(R|ZR|B|D|-)" + number +
                                   "(?:C|LT)?");
   std::smatch part;
   const std::string size = tidy(text);
   if (!std::regex_match(size, part, pattern))
     refuse(text, "it is read as width, height of the sides, construction (R, B, D or -) and rim");
   const auto value = [&](std::size_t k) { return std::stod(part[k]); };
-  Size read{.rim = value(4)};
+  Size read{.rim = value(5)};
+  if (part[4] == "R" || part[4] == "ZR") read.construction = Construction::radial;
   if (part[2] == "X")
     read.diameter = value(1), read.width = value(3), read.width_text = part[3];
   else
@@ -95,6 +97,7 @@ std::optional<Tire> tire_of_size(const std::string& text) {
         fmt::format("sides of {:g} % of that{}", aspect, size.aspect > 0.0 ? "" : " (assumed: the size tells none)");
   }
   tire.section_height = tire.radius - size.rim * inch / 2;
+  tire.construction = size.construction;
   tire.source = fmt::format("{}{:.4g} mm wide, {} on a rim of {:g} in, so a radius of {:.4g} mm over an unknown tread",
                             by_size_alone, 1000 * tire.width, sides, size.rim, 1000 * tire.radius);
   return tire;

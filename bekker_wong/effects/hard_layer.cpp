@@ -90,8 +90,10 @@ std::vector<EffectForm> hard_layer_forms() {
       {.id = id,
        .form = "logarithmic",
        .equation = "sigma = k z^n - p_w ln(1 - z/z_w), a line beyond z/z_w = 0.95",
-       .source = "after Wong and Preston-Thomas 1983, J. Terramechanics 20(1):1 (snow over an ice layer)",
-       .parameters = {{"p_w", "kPa", 2e4, 0.0, 1e6, "pressure that presses the soil to 63 % of z_w"}, z_w},
+       .source =
+           "after Wong and Preston-Thomas 1983, J. Terramechanics 20(1):1 (snow over an ice layer; there the logarithm "
+           "stands alone, here it adds to k z^n)",
+       .parameters = {{"p_w", "kPa", 2e4, 0.0, 1e6, "pressure that the layer adds at 63 % of z_w"}, z_w},
        .make = maker<Logarithmic>()},
       {.id = id,
        .form = "transition",

@@ -42,12 +42,13 @@ class Reload final : public Effect {
       : amplitude_(p[0]), p0_(p[1]), elastic_(p[2]), from_surface_(from_surface) {}
   bool presses() const override { return true; }
   void soil_depth(ContactPatch& patch, const Surroundings& around) const override {
-    const double h = left_by_passes(around), e = elastic_ * rut(around);
+    if (share(around) == 0.0) return;
+    const double z_p = rut(around), h = share(around) * z_p, e = elastic_ * z_p;
     if (h == 0.0) return;
     for (double& depth : patch.of(&ContactPatch::depth)) depth *= 1 + h / (depth + e);
   }
   void sensor(Reading& reading, const Surroundings& around) const override {
-    if (from_surface_) reading.sinkage += left_by_passes(around);
+    if (from_surface_ && share(around) != 0.0) reading.sinkage += share(around) * rut(around);
   }
 
  private:
@@ -56,10 +57,8 @@ class Reload final : public Effect {
     const double load = at.rut_load ? around.normal_load * (*at.rut_load / at.load) : around.normal_load;
     return load > 0.0 ? bekker_static_sinkage(around.declared, around.tire.radius, around.tire.width, load) : 0.0;
   }
-  double left_by_passes(const Surroundings& around) const {
-    const double share = amplitude_ * compacted(around, p0_);
-    return share == 0.0 ? 0.0 : share * rut(around);
-  }
+  /// Depth of the rut that the passes have left, over the static sinkage.
+  double share(const Surroundings& around) const { return amplitude_ * compacted(around, p0_); }
   double amplitude_, p0_, elastic_;
   bool from_surface_;
 };
@@ -105,7 +104,8 @@ EffectForm reload(const std::string& form, bool from_surface) {
       .form = form,
       .equation = std::string("sigma = k (y + h y/(y + e z_p))^n, h = a z_p [1 - exp(-(pass - 1)/p0)], ") +
                   (from_surface ? "z = y + h" : "z = y") + "; z_p: Bekker's static sinkage",
-      .source = "after Wong, Theory of Ground Vehicles, ch. 2 (response to repetitive loading)",
+      .source =
+          "stated here; after Wong, Theory of Ground Vehicles, ch. 2 (soil loaded again is stiffer; there by a line)",
       .parameters = {{"a", "-", 0.6, 0.0, 1.5, "depth of the rut left by many passes over the static sinkage"},
                      {"p0", "-", 1.0, 0.2, 20.0, "passes after which most of the compaction is done"},
                      {"e", "-", 0.1, 0.02, 1.0, "elastic share: rebound of the rut over the static sinkage"}},

@@ -114,7 +114,9 @@ std::vector<EffectForm> slope_weakening_forms() {
       {.id = id,
        .form = "bearing",
        .equation = "k times 1 - a sin(i)",
-       .source = "after Meyerhof 1957, Proc. 4th ICSMFE 1:384 (bearing capacity of foundations on slopes)",
+       .source = "stated here: a line; Meyerhof 1957, Proc. 4th ICSMFE 1:384, has charts of a foundation's bearing "
+                 "capacity on "
+                 "slopes",
        .parameters = {{"a", "-", 0.5, 0.0, 3.0, "relative loss of stiffness over sin(i)"}},
        .make = maker<Bearing>()},
   };

@@ -33,13 +33,14 @@ enum class DoubtKind {
   // no influence
   lugs_ignored, lug_count_ignored, lug_thickness_ignored, lug_pattern_ignored, lug_angle_ignored, inflation_ignored,
   inflation_ignored_by_grains, carcass_ignored, carcass_ignored_by_grains, deflection_ignored,
-  deflection_ignored_by_grains, section_height_ignored, speed_ignored, bin_ignored, no_yaw,
+  deflection_ignored_by_grains, section_height_ignored, construction_ignored, speed_ignored, bin_ignored, no_yaw,
   assumed_errors_none, assumed_errors_ignored_by_grains, condition_ignored, condition_ignored_by_grains,
   effect_without_condition, effect_without_pass, bin_depth_taken, soil_weight_ignored, rigid_already, smooth_already,
   // resistive force theory
   ignored_by_rft, rft_values_estimated, rft_without_cohesion,
   // cone index
   ignored_by_cone_index, cone_index_tells_no_sinkage, cone_index_beside_bekker, section_height_assumed,
+  construction_unknown,
   firm_deflection_by_pressure, firm_deflection_assumed, outside_cone_index_tests, some_axles_driven,
   cone_index_as_rating, close_to_vehicle_cone_index, no_mean_maximum_pressure,
   // presumptions

@@ -101,6 +101,7 @@ constexpr DoubtSentence sentences[] = {
     D(deflection_ignored, "the load-deflection table is ignored: add {1}"),
     D(deflection_ignored_by_grains, "the load-deflection table is ignored: grains meet a rigid tire"),
     D(section_height_ignored, "only the model cone_index reads the section height"),
+    D(construction_ignored, "only the model cone_index reads the tire's construction"),
     D(speed_ignored, "the speed is ignored: add {1}"),
     D(bin_ignored, "the bin is ignored: add {1}, which reads its depth"),
     D(no_yaw, "'{0}' is ignored: no condition has a 'yaw'"),
@@ -126,6 +127,8 @@ constexpr DoubtSentence sentences[] = {
       "loose: where cone_index and bekker_wong differ here, neither is shown to be wrong"),
     D(section_height_assumed, "cone_index: the tire declares no section_height, and {:.4g} mm are assumed, {:.0f} % of "
       "its width"),
+    D(construction_unknown, "cone_index: the tire declares no construction, and is taken for one of crossed plies; a "
+      "radial one pulls more at little slip: construction: radial"),
     D(firm_deflection_by_pressure, "cone_index: the tire declares no load-deflection table; by its inflation and carcass "
       "pressure it deflects by {:.3g} mm on firm ground, {:.0f} % of its section height{at}"),
     D(firm_deflection_assumed, "cone_index is for pneumatic tires: this one declares no inflation pressure, and a "

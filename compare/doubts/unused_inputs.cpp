@@ -107,6 +107,7 @@ const std::vector<Declared>& declarable() {
       of_typed("lugs.pattern", DoubtKind::lug_pattern_ignored, "", "the lugs' pattern"),
       of_typed("lugs.angle", DoubtKind::lug_angle_ignored, "", "the lugs' angle"),
       of_typed(section_height_key, DoubtKind::section_height_ignored, "the section height", ""),
+      of_typed(construction_key, DoubtKind::construction_ignored, "the construction", ""),
       {"speed",
        DoubtKind::speed_ignored,
        {},

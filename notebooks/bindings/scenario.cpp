@@ -58,6 +58,8 @@ void bind_estimate(py::module_& module) {
 
 void bind_tire_and_soil(py::module_& module) {
   bind_words<LugPattern>(module, "LugPattern", "How the lugs run across the tread.");
+  bind_words<Construction>(module, "Construction",
+                           "How the plies of a tire run; the model cone_index alone asks for it.");
   py::class_<Lugs> lugs(module, "Lugs", "Lugs of a tire or grousers of a rover wheel.");
   described(lugs);
   py::class_<TireDeflection> deflection(module, "TireDeflection",

@@ -48,6 +48,17 @@ TEST(ConeIndexCommand, SaysWhatItTakesAndLeavesOut) {
   EXPECT_THAT(run.out, Not(HasSubstr("nan")));
 }
 
+TEST(ConeIndexCommand, TakesTheConstructionOfTheTireAndSaysWhereThereIsNone) {
+  const std::string unknown = coned_study(loam, "cone_index");
+  std::string radial = unknown;
+  radial.insert(radial.find(", inflation_pressure"), ", construction: radial");
+  const Outcome without = run_on(unknown, " --slip 10% --json"), with = run_on(radial, " --slip 10% --json");
+  EXPECT_THAT(without.err, HasSubstr("the tire declares no construction"));
+  EXPECT_THAT(with.err, Not(HasSubstr("construction")));
+  const auto pull = [](const Outcome& run) { return run.json().at("rows").at(0).at("drawbar_pull").get<double>(); };
+  EXPECT_GT(pull(with), pull(without));
+}
+
 TEST(ConeIndexCommand, AnswersOneConditionWithoutAnglesOfContact) {
   const Outcome run = run_on(coned_study(loam, "cone_index"), " --slip 10%");
   ASSERT_EQ(run.status, 0) << run.err;

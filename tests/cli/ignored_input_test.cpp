@@ -42,6 +42,7 @@ const std::map<std::string, std::string>& samples() {
       {"--inflation-pressure", "50kPa"},
       {"--carcass-pressure", "20kPa"},
       {"--section-height", "60mm"},
+      {"--construction", "radial"},
       {"--lug-height", "9mm"},
       {"--lug-count", "13"},
       {"--lug-thickness", "4mm"},

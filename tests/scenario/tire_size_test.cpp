@@ -46,6 +46,13 @@ TEST(TireSize, TellsRadiusAndWidth) {
   EXPECT_EQ(tire_of_size("IF 600/70 R 30")->name, "IF600/70R30");
 }
 
+TEST(TireSize, TellsHowThePliesRun) {
+  for (const char* radial : {"600/65R28", "205/55ZR16", "16.00R20"})
+    EXPECT_EQ(tire_of_size(radial)->construction, Construction::radial) << radial;
+  for (const char* crossed : {"18.4-38", "710/45-26.5", "8.25D15", "66x43.00-25"})
+    EXPECT_EQ(tire_of_size(crossed)->construction, Construction::bias_ply) << crossed;
+}
+
 // Sizes in inches tell no height of the sides: what is taken is said, and is near what tires of such sizes measure:
 // the 14.00R20 of Project Chrono 1258 mm, data sheets of earthmovers' tires 1276 (12.00R24) and, with a tread that is
 // 50 mm deeper than others', 1666 mm (23.5R25).
