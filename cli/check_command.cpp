@@ -17,7 +17,6 @@
 #include "cone_index/vehicle.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/scm_soil.hpp"
-#include "scenario/yaml_node.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -29,13 +28,6 @@ struct CheckedFile {
   std::string what;
   compare::Doubts doubts;
 };
-
-/// The `format:` of a document, "" where there is none.
-std::string format_of(const fs::path& file) {
-  const YamlNode document = parse_yaml(read_source_text(file, largest_yaml));
-  const YamlNode* format = document.is_mapping() ? document.find("format") : nullptr;
-  return format != nullptr && format->is_scalar() ? format->scalar : "";
-}
 
 /// A name of any shelf, a file, or a campaign's folder.
 fs::path file_named(const std::string& name, const Workplace& place) {
