@@ -6,7 +6,7 @@
 #include <charconv>
 
 #include "cli/command_words.hpp"
-#include "scenario/csv.hpp"
+#include "cli/flag_values.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/source_text.hpp"

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "cli/flag_values.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/page.hpp"
-#include "scenario/csv.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
 

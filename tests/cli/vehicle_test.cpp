@@ -203,7 +203,7 @@ centre_of_gravity: {x: 0.5 m, z: 0.8 m}
 drive_line: sides
 power: 50 W
 axles:
-  - {name: front, x: 1.2 m, track: 1.3 m, tire: {name: rover 0.5 m, radius: 250 mm, width: 200 mm}}
+  - {name: front, x: 1.2 m, track: 1.3 m, steered: yes, tire: {name: rover 0.5 m, radius: 250 mm, width: 200 mm}}
   - {name: rear, x: 0 m, track: 1.3 m, tire: {name: rover 0.5 m, radius: 250 mm, width: 200 mm}}
 soil: grc-1
 effects: [{id: slip_sinkage, form: lyasko, parameters: {a: 0.5}}]

@@ -34,7 +34,7 @@ class Server:
 
     def ask(self, target, method="GET", **headers):
         """Status, headers and text of a target."""
-        line = http.client.HTTPConnection("127.0.0.1", self.port, timeout=20)
+        line = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
         line.request(method, target, headers=headers)
         answer = line.getresponse()
         text = answer.read().decode()

@@ -4,9 +4,9 @@
 
 // `places`: where axles, centre of gravity and hitch are, and `state`, in SI and radians, as /vehicle and /drive have them: its
 // slope, pull and wheels, each with its axle's number, load, slip (null: none), sinkage and, in time, how far it has `spun`;
-// in time also how far it has `travelled`. One that does not go stands there faint, on hard ground.
-soilbin.drawVehicle = function (places, state) {
-  const {svgOf, svgPath, formatNumber, formatForce} = soilbin, width = 720, margin = 16, labels = 64;
+// in time also how far it has `travelled`. One that does not go stands there faint, on hard ground. `width` [px].
+soilbin.drawVehicle = function (places, state, width = 720) {
+  const {svgOf, svgPath, formatNumber, formatForce} = soilbin, margin = 16, labels = 64;
   const axles = places.axles, {goes} = state, tread = axle => axle.radius + axle.lug_height, xs = axles.map(axle => axle.x);
   const largest = Math.max(...axles.map(tread)), roof = Math.max(1.3 * places.centre_of_gravity.z, 1.3 * largest);
   const rear = Math.min(...axles.map(a => a.x - tread(a)), places.hitch.x), front = Math.max(...axles.map(a => a.x + tread(a)));
@@ -48,7 +48,8 @@ soilbin.drawVehicle = function (places, state) {
     for (let k = Math.ceil((from + rear - long) / step); k * step <= from + front + long; ++k) {
       const x = k * step - from, depth = 26 / scale;
       add('path', {class: 'quiet-line', d: svgPath([at(x, -0.6 * depth), at(x, -depth)])});
-      if (rows.every(wheel => Math.abs(wheel.x - x) * scale > 75)) text(at(x, -1.6 * depth), `${formatNumber(k * step)} m`, {class: 'quiet'});
+      const place = at(x, -1.6 * depth), free = rows.every(wheel => Math.abs(wheel.x - x) * scale > 75);
+      if (free && place[0] > 24 && place[0] < width - 24) text(place, `${formatNumber(k * step)} m`, {class: 'quiet'});
     }
   }
 

@@ -117,10 +117,13 @@ soilbin.VehiclePage = class extends soilbin.LivePage {
     part('clock').textContent = '';
     part('outdated').hidden = this.drivenFor === query;
     part('in-time').classList.toggle('stale', this.drivenFor !== query);
-    this.showVehicle(soilbin.drawVehicle(this.answer.places, this.answer.state));
+    this.showVehicle(this.answer.places, this.answer.state);
   }
 
-  showVehicle(drawing) { soilbin.part('ground').querySelector('.panels').replaceChildren(drawing); }
+  showVehicle(places, state) {
+    const panels = soilbin.part('ground').querySelector('.panels'), room = panels.clientWidth || 720;
+    panels.replaceChildren(soilbin.drawVehicle(places, state, Math.max(400, Math.min(720, room))));  // letters stay as large
+  }
 
   // Asks for the drive of what is shown, and plays it.
   async driveIt() {
@@ -160,7 +163,7 @@ soilbin.VehiclePage = class extends soilbin.LivePage {
 
   showMoment(state, {time, travelled, speed, slip}) {
     const {part, formatNumber} = soilbin;
-    this.showVehicle(soilbin.drawVehicle(this.drive.places, state));
+    this.showVehicle(this.drive.places, state);
     part('scrub').value = time;
     const said = `${time.toFixed(1)} s, ${travelled.toFixed(2)} m, ${formatNumber(speed)} m/s, ` +
       (slip === null ? 'all but at rest' : `slip ${formatNumber(100 * slip)} %`);
