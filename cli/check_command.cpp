@@ -17,6 +17,7 @@
 #include "cone_index/vehicle.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/scm_soil.hpp"
+#include "scenario/yaml_node.hpp"
 
 namespace soilbin::cli {
 namespace {
