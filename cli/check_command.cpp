@@ -30,13 +30,6 @@ struct CheckedFile {
   compare::Doubts doubts;
 };
 
-/// The `format:` of a document, "" where there is none.
-std::string format_of(const fs::path& file) {
-  const YamlNode document = parse_yaml(read_source_text(file, largest_yaml));
-  const YamlNode* format = document.is_mapping() ? document.find("format") : nullptr;
-  return format != nullptr && format->is_scalar() ? format->scalar : "";
-}
-
 /// A name of any shelf, a file, or a campaign's folder.
 fs::path file_named(const std::string& name, const Workplace& place) {
   std::error_code error;

@@ -148,6 +148,16 @@ void add_effect(std::vector<EffectChoice>& effects, const std::string& text, con
   effects.push_back(std::move(effect));
 }
 
+std::vector<EffectChoice> effects_named(const std::vector<std::string>& texts, const EffectVocabulary& vocabulary,
+                                        const Soil& soil) {
+  std::vector<EffectChoice> effects;
+  const bool none = std::ranges::find(texts, "none") != texts.end();
+  if (none && texts.size() > 1) throw InputError("--effect none excludes all others: it switches every effect off");
+  if (none) return effects;
+  for (const std::string& text : texts) add_effect(effects, text, vocabulary, soil);
+  return effects;
+}
+
 std::vector<OperatingCondition> ConditionFlags::conditions() const {
   std::vector<OperatingCondition> all;
   for (const Flags& flags : combinations()) flags.apply(all.emplace_back());
@@ -361,10 +371,7 @@ Case Question::ask(const Workplace& place) const {
   }
   if (effects_.empty()) return question;
   ModelChoice choice;
-  const bool none = std::ranges::find(effects_, "none") != effects_.end();
-  if (none && effects_.size() > 1) throw InputError("--effect none excludes all others: it switches every effect off");
-  for (const std::string& text : none ? std::vector<std::string>{} : effects_)
-    add_effect(choice.effects, text, place.effects, question.scenario.soil);
+  choice.effects = effects_named(effects_, place.effects, question.scenario.soil);
   question.study.models = {choice};
   label_models(question.study.models);
   return question;

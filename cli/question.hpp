@@ -24,6 +24,10 @@ namespace soilbin::cli {
 void add_effect(std::vector<EffectChoice>& effects, const std::string& text, const EffectVocabulary& vocabulary,
                 const Soil& soil);
 
+/// The effects that the texts of --effect name, as add_effect takes each; "none" alone: no effect. Throws InputError.
+std::vector<EffectChoice> effects_named(const std::vector<std::string>& texts, const EffectVocabulary& vocabulary,
+                                        const Soil& soil);
+
 /// Flags that pick or override a study's conditions. Each takes one value or several (several_values).
 class ConditionFlags {
  public:
@@ -134,6 +138,8 @@ class SoilFlags {
   void add_to(CLI::App& app, const std::string& heading);
 
   bool any_given() const;
+  /// What was given for a key of a soil file; "" for nothing.
+  const std::string& text(const std::string& key) const { return texts_.at(key); }
 
   /// Puts the values that were given in place of the soil's; of a soil with beds, --density first picks the bed. A
   /// value without "+-" (or "±") keeps the soil's standard deviation. The soil's name then ends in ", changed", and the

@@ -6,12 +6,10 @@
 
 #include "bekker_wong/model.hpp"
 #include "cli/commands.hpp"
-#include "cli/described_flags.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
-#include "cli/question.hpp"
-#include "compare/doubts/doubts.hpp"
+#include "cli/vehicle_question.hpp"
 #include "compare/telling/reports.hpp"
 #include "compare/vehicle/vehicle_answers.hpp"
 #include "compare/vehicle/vehicle_doubts.hpp"
@@ -20,31 +18,22 @@ namespace soilbin::cli {
 namespace {
 
 struct VehicleOptions {
-  std::string name, soil, density, map;
+  explicit VehicleOptions(CLI::App& app) : asked(app) {}
+
+  VehicleQuestion asked;
+  std::string map;
   unsigned samples = 50;
   bool drive = false, turn = false;
   std::string radius, steer;
-  compare::TireLeftOut left_out;
-  DescribedFlags<compare::VehicleCondition> condition;
   OutputFlags outputs;
 };
-
-/// A flag that the file's own drive would leave unread is refused.
-void refuse_what_the_drive_says(const VehicleOptions& options, const compare::VehicleDrive& drive) {
-  for (const char* key : {"slope", "pull"})
-    if (options.condition.given(key) && !drive.profile.empty())
-      throw InputError(fmt::format("--{} has no effect: the file's drive has a profile of its own", key));
-  if (options.condition.given("speed") && drive.controller)
-    throw InputError("--speed has no effect: the file's drive has a controller of its own");
-}
 
 int drive_in_time(const VehicleOptions& options, const compare::VehicleCase& question,
                   const std::vector<compare::VehicleWheel>& wheels, const Model& model, compare::Doubts notes,
                   const Session& session) {
-  refuse_what_the_drive_says(options, question.drive);
-  constexpr int intervals = 400;
+  options.asked.refuse_what_its_drive_says(question.drive);
   const compare::DrivenAnswers answers =
-      compare::driven_answers(question, wheels, model, intervals, shown_progress_in_time());
+      compare::driven_answers(question, wheels, model, drive_intervals, shown_progress_in_time());
   return publish(compare::report_on(answers), options.outputs, doubts_about(answers, std::move(notes)), session)
       .status(done);
 }
@@ -61,13 +50,9 @@ int turn_steadily(const VehicleOptions& options, const compare::VehicleCase& que
 }
 
 int vehicle(const VehicleOptions& options, const Session& session) {
-  compare::VehicleCase question =
-      compare::find_vehicle_case(options.name, session.place.library, session.place.effects);
-  if (!options.soil.empty()) question.soil = find_soil(options.soil, session.place.library);
-  if (!options.density.empty()) pick_bed(question.soil, options.density);
-  options.condition.apply(question.condition);
+  const compare::VehicleCase question = options.asked.ask(session.place);
   std::vector<compare::VehicleWheel> wheels = wheels_of(question);
-  compare::Doubts notes = declare_tires(wheels, options.left_out);
+  compare::Doubts notes = declare_tires(wheels, options.asked.left_out());
   const bekker_wong::BekkerWong model({.errors = false, .patch = false});
   if (options.drive) return drive_in_time(options, question, wheels, model, std::move(notes), session);
   if (options.turn) return turn_steadily(options, question, wheels, model, std::move(notes), session);
@@ -86,17 +71,7 @@ int vehicle(const VehicleOptions& options, const Session& session) {
 void add_vehicle(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand(
       "vehicle", "a vehicle on soil: does it go, how steep up, down and across, which wheel gives out");
-  const auto options = std::make_shared<VehicleOptions>();
-  add_value(*command, "vehicle", options->name, "VEHICLE",
-            "a vehicle of the library, or a file (soilbin-vehicle-case/1)")
-      ->required();
-  add_value(*command, "--soil", options->soil, "NAME|FILE", "in place of the file's soil");
-  add_value(*command, "--density", options->density, "kg/m^3", "of the bed, of a soil with several");
-  options->condition.add_to(*command, "Condition");
-  command->add_flag("--rigid", options->left_out.pressure, "rigid wheels, whatever pressure the tires declare")
-      ->group("Model");
-  command->add_flag("--no-lugs", options->left_out.lugs, "smooth wheels, whatever lugs the tires declare")
-      ->group("Model");
+  const auto options = std::make_shared<VehicleOptions>(*command);
   CLI::Option* map = add_file(*command, "--map", options->map, "FILE.csv",
                               "the chance to go over slope and heading, by the soil's standard deviations");
   add_value(*command, "--samples", options->samples, "WHOLE", "soils that the map draws (50)")->needs(map);
@@ -125,6 +100,7 @@ void add_vehicle(CLI::App& app, Session& session) {
       "Exit status 1 where the vehicle does not travel in the condition that is asked, in time where it does not stand "
       "at its start.\n"
       "Examples: soilbin vehicle truck --slope 5deg --pull 2kN\n"
+      "          soilbin vehicle tractor --driven rear --mass 7t --friction-angle 28+-2deg\n"
       "          soilbin vehicle truck --turn --radius 12m\n"
       "          soilbin vehicle rover --drive --slope 10deg --report climb.html");
   command->callback([=, &session] { session.action = [=, &session] { return vehicle(*options, session); }; });

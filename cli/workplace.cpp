@@ -4,7 +4,10 @@
 
 #include <cstdlib>
 
+#include "compare/vehicle/vehicle.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/source_text.hpp"
+#include "scenario/yaml_node.hpp"
 
 namespace soilbin::cli {
 namespace fs = std::filesystem;
@@ -34,6 +37,20 @@ std::optional<fs::path> schema_file(const std::string& format) {
   for (const fs::path& folder : {installed_share("schema"), fs::path(SOILBIN_SOURCE_SCHEMAS)})
     if (const fs::path file = folder / (format + ".json"); fs::is_regular_file(file, error)) return file;
   return std::nullopt;
+}
+
+std::string format_of(const fs::path& file) {
+  const YamlNode document = parse_yaml(read_source_text(file, largest_yaml));
+  const YamlNode* format = document.is_mapping() ? document.find("format") : nullptr;
+  return format != nullptr && format->is_scalar() ? format->scalar : "";
+}
+
+bool names_a_vehicle(const Workplace& place, const std::string& name) {
+  const bool is_path = name.find('/') != std::string::npos || name.ends_with(".yaml");
+  if (!is_path && place.library.find(Shelf::studies, name)) return false;
+  if (!is_path && place.library.find(Shelf::vehicles, name)) return true;
+  std::error_code error;
+  return fs::is_regular_file(name, error) && format_of(name) == compare::vehicle_case_format;
 }
 
 Case find_case(const Workplace& place, const std::string& name) {

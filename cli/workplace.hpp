@@ -30,6 +30,12 @@ Workplace find_workplace();
 /// not written.
 std::optional<std::filesystem::path> schema_file(const std::string& format);
 
+/// The `format:` of a YAML document, "" where there is none. Throws InputError for a file that is no such document.
+std::string format_of(const std::filesystem::path& file);
+
+/// Whether a name is a vehicle's: of the library, where no study has it, or a file that says so.
+bool names_a_vehicle(const Workplace& place, const std::string& name);
+
 /// Reads a case: the name of a study in the library, or a path.
 Case find_case(const Workplace& place, const std::string& name);
 

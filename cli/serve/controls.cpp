@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "bekker_wong/effect.hpp"
 #include "cli/described_flags.hpp"
@@ -40,12 +41,12 @@ struct Slider {
 
 Slider slider_over(const Range& range, double per_si, double value, double usual) {
   constexpr double steps = 200;
-  const auto limit = [&](double end, bool open) {
-    return std::isfinite(end) ? std::round(end * per_si * 10) / 10 / (open ? 2.0 : 1.0)
-                              : round_number(3 * std::max(std::abs(value), usual));
+  const double far = round_number(3 * std::max(std::abs(value), usual));
+  const auto limit = [&](double end, bool open, double else_at) {
+    return std::isfinite(end) ? std::round(end * per_si * 10) / 10 / (open ? 2.0 : 1.0) : else_at;
   };
-  Slider slider{limit(range.lower, range.lower_open), limit(range.upper, range.upper_open), 0.0};
-  if (!std::isfinite(range.lower) && value >= 0.0) slider.lower = 0.0;
+  Slider slider{limit(range.lower, range.lower_open, value < 0.0 ? -far : 0.0),
+                limit(range.upper, range.upper_open, far), 0.0};
   slider.step = round_number((slider.upper - slider.lower) / steps);
   if (slider.lower == 0.0 && range.lower_open) slider.lower = slider.step;
   return slider;
@@ -62,11 +63,12 @@ Json control_json(const char* group, const std::string& flag, const char* meanin
           {"value", value}, {"lower", slider.lower}, {"upper", slider.upper},   {"step", slider.step}};
 }
 
-/// Where a slider stands whose number the tire doesn't declare [SI]; no value: there is no slider.
+/// Where a slider stands whose number tire or vehicle don't declare [SI]; no value: there is no slider.
 std::optional<double> usual_value(const std::string& key, double radius) {
   if (key == "inflation_pressure") return 100e3;
   if (key == "carcass_pressure") return 30e3;
   if (key == "thickness") return 0.04 * radius;
+  if (key == "power") return 100e3;
   return std::nullopt;
 }
 
@@ -75,10 +77,17 @@ std::optional<double> value_of(const std::optional<Estimate>& estimate) {
   return estimate ? std::optional(estimate->value) : std::nullopt;
 }
 
-/// Adds a control for each number of `from`; `usual` [SI] as of slider_over; `force`: the unit in which loads are told.
+/// A usual size [SI] of a number, by its key, as of slider_over.
+using UsualSize = std::function<double(std::string_view key)>;
+
+UsualSize always(double size) {
+  return [size](std::string_view) { return size; };
+}
+
+/// Adds a control for each number of `from`; `radius` [m] of the tire; `force`: the unit in which forces are told.
 template <class T>
-void add_numbers(Json& to, const T& from, const char* group, const std::string& prefix, double usual, double radius,
-                 const std::string& force = "N") {
+void add_numbers(Json& to, const T& from, const char* group, const std::string& prefix, const UsualSize& usual,
+                 double radius, const std::string& force = "N") {
   each_member<T>([&](const char* key, auto member, const auto& limits, const char* meaning) {
     using Value = std::decay_t<decltype(from.*member)>;
     const Value& value = from.*member;
@@ -88,7 +97,7 @@ void add_numbers(Json& to, const T& from, const char* group, const std::string& 
       const std::string unit = limits.unit == "N" ? force : shown_unit(limits.unit);
       const double per_si = compare::per_unit(unit);
       to.push_back(control_json(group, flag, meaning, unit, read_in(value, unit),
-                                slider_over(limits.range, per_si, value * per_si, usual * per_si)));
+                                slider_over(limits.range, per_si, value * per_si, usual(key) * per_si)));
     } else if constexpr (std::is_same_v<Value, std::optional<double>> ||
                          std::is_same_v<Value, std::optional<Estimate>>) {
       const std::optional<double> start = usual_value(key, radius);
@@ -223,7 +232,7 @@ std::string effect_word(const EffectChoice& choice, const Soil& soil) {
   return word;
 }
 
-Json effects_json(const Case& question) {
+Json effects_json(const std::vector<EffectChoice>& effects, const Soil& soil) {
   Json all = Json::array();
   for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue()) {
     if (all.empty() || all.back()["id"] != form.id)
@@ -235,8 +244,8 @@ Json effects_json(const Case& question) {
                                    {"equation", form.equation},
                                    {"source", form.source},
                                    {"parameters", parameters_json(form)}});
-    for (const EffectChoice& choice : question.study.models.front().effects)
-      if (choice.id == form.id) all.back()["on"] = effect_word(choice, question.scenario.soil);
+    for (const EffectChoice& choice : effects)
+      if (choice.id == form.id) all.back()["on"] = effect_word(choice, soil);
   }
   return all;
 }
@@ -252,16 +261,40 @@ Json numbers_json(const Case& question, const std::string& force) {
   Json numbers = Json::array();
   const OperatingCondition& at = question.study.conditions.front();
   const Tire& tire = question.scenario.tire;
-  add_numbers(numbers, at, "condition", "", usual_of_condition, tire.radius, force);
-  add_numbers(numbers, tire, "tire", "", usual_of_tire, tire.radius);
-  add_numbers(numbers, tire.lugs, "tire", "lug-", usual_lug * tire.radius, tire.radius);
+  add_numbers(numbers, at, "condition", "", always(usual_of_condition), tire.radius, force);
+  add_numbers(numbers, tire, "tire", "", always(usual_of_tire), tire.radius);
+  add_numbers(numbers, tire.lugs, "tire", "lug-", always(usual_lug * tire.radius), tire.radius);
   if (question.scenario.soil.semi_empirical) add_soil_values(numbers, *question.scenario.soil.semi_empirical);
   add_condition_sliders(numbers, at);
   return numbers;
 }
 
-Json effect_values_json(const Case& question) {
-  return compare::list_of(question.study.models.front().effects, [](const EffectChoice& choice) {
+std::string force_unit_of(const compare::VehicleCase& vehicle) {
+  return is_told_in_kilonewtons(vehicle.mass * gravity_of(vehicle.soil)) ? "kN" : "N";
+}
+
+Json vehicle_numbers_json(const compare::VehicleCase& vehicle, const std::string& force) {
+  constexpr double usual_speed = 0.1, usual_mass = 10.0, usual_height = 0.1;
+  const double weight = vehicle.mass * gravity_of(vehicle.soil), radius = vehicle.line_radius();
+  Json numbers = Json::array();
+  const UsualSize usual = [&](std::string_view key) { return key == "pull" ? weight / 6 : usual_speed; };
+  add_numbers(numbers, vehicle.condition, "condition", "", usual, radius, force);
+  add_numbers(numbers, vehicle, "vehicle", "", always(usual_mass), radius);
+  Json centre = Json::array();
+  add_numbers(centre, vehicle.centre_of_gravity, "vehicle", "centre-of-gravity-", always(usual_height), radius);
+  const auto [rear, front] = std::ranges::minmax(vehicle.axles, {}, &compare::VehicleAxle::x);
+  for (Json& control : centre) {
+    if (control["key"] == "centre-of-gravity-y") continue;
+    if (control["key"] == "centre-of-gravity-x" && front.x > rear.x)
+      control["lower"] = rear.x, control["upper"] = front.x, control["step"] = 0.01;
+    numbers.push_back(std::move(control));
+  }
+  if (vehicle.soil.semi_empirical) add_soil_values(numbers, *vehicle.soil.semi_empirical);
+  return numbers;
+}
+
+Json effect_values_json(const std::vector<EffectChoice>& effects) {
+  return compare::list_of(effects, [](const EffectChoice& choice) {
     const bekker_wong::EffectForm& form = bekker_wong::find_form(choice);
     const auto value_of = [&](const bekker_wong::EffectParameter& parameter) {
       const auto given = choice.parameters.find(parameter.name);

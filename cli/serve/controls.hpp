@@ -1,10 +1,12 @@
-// What a served page can move: condition, tire, soil, effects and their parameters, each with where it stands and its
-// limits.
+// What a served page can move: condition, tire or vehicle, soil, effects and their parameters, each with where it
+// stands and its limits.
 #pragma once
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "compare/vehicle/vehicle.hpp"
 #include "scenario/case.hpp"
 
 namespace soilbin::cli {
@@ -34,11 +36,18 @@ bool is_told_in_kilonewtons(double load);
 bool is_tire_flag(const std::string& key);
 bool is_soil_flag(const std::string& key);
 
-/// The catalogue, forms under their effects, each with its parameters as numbers_json has its numbers, at their
-/// defaults; "on": how the question spells an effect that it switches on, else null.
-nlohmann::ordered_json effects_json(const Case& question);
+/// The numbers of a vehicle's question, as numbers_json has those of a wheel's: groups "condition", "vehicle" and
+/// "soil". `force`: the unit of the pull, N or kN.
+nlohmann::ordered_json vehicle_numbers_json(const compare::VehicleCase& vehicle, const std::string& force);
 
-/// The effects that the question switches on: id, form, and each parameter's key and value in the unit of effects_json.
-nlohmann::ordered_json effect_values_json(const Case& question);
+/// By its weight the unit in which forces on a vehicle are told, N or kN.
+std::string force_unit_of(const compare::VehicleCase& vehicle);
+
+/// The catalogue, forms under their effects, each with its parameters as numbers_json has its numbers, at their
+/// defaults; "on": how `effects`, on a soil, spell one that is among them, else null.
+nlohmann::ordered_json effects_json(const std::vector<EffectChoice>& effects, const Soil& soil);
+
+/// Effects that are on: id, form, and each parameter's key and value in the unit of effects_json.
+nlohmann::ordered_json effect_values_json(const std::vector<EffectChoice>& effects);
 
 }  // namespace soilbin::cli

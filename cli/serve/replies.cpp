@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 
 #include "cli/command_words.hpp"
@@ -13,7 +12,6 @@
 #include "cli/serve/controls.hpp"
 #include "cli/serve/served_answer.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/report/page.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/sweep/wheel_limits.hpp"
 #include "compare/telling/answer_report.hpp"
@@ -21,63 +19,9 @@
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {
-
-/// The script, style and body of the page, from cli/serve/browser; made by the build.
-std::vector<compare::EmbeddedFile> live_files();
-
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr const char* icon =
-    R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 8 8"><path d="M0 6h8v2H0z" fill="#c2500a"/>)"
-    R"(<circle cx="4" cy="3.7" r="2.7" fill="none" stroke="#0b63a8" stroke-width="1.2"/></svg>)";
-
-/// "a+b%20c" as "a b c". Throws InputError for a '%' without its two digits.
-std::string decoded(const std::string& text) {
-  std::string out;
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    unsigned code = 0;
-    if (text[at] != '%') {
-      out += text[at] == '+' ? ' ' : text[at];
-      continue;
-    }
-    const char* digits = text.data() + at + 1;
-    if (text.size() < at + 3 || std::from_chars(digits, digits + 2, code, 16).ptr != digits + 2)
-      throw InputError(fmt::format("'{}': a percent sign in an address is written %25", clipped(text)));
-    out += static_cast<char>(code);
-    at += 2;
-  }
-  return out;
-}
-
-std::vector<Flag> flags_of(const std::string& query) {
-  std::vector<Flag> flags;
-  for (const std::string& part : split(query, "&")) {
-    if (part.empty()) continue;
-    const std::size_t equals = part.find('=');
-    if (equals == std::string::npos || equals + 1 == part.size())
-      throw InputError(fmt::format("'{}' has no value\n  hint: such as load=80N", clipped(decoded(part))));
-    flags.emplace_back(decoded(part.substr(0, equals)), decoded(part.substr(equals + 1)));
-  }
-  return flags;
-}
-
-/// "what\n  hint: how" in two.
-std::pair<std::string, std::string> error_and_hint(const std::string& what) {
-  std::vector<std::string> parts = split(what, "\n  hint: ");
-  return {parts.front(), parts.size() > 1 ? parts[1] : ""};
-}
-
-/// Takes the flags of this name out of the query; the last one counts.
-std::optional<std::string> take(std::vector<Flag>& flags, const std::string& key) {
-  std::optional<std::string> text;
-  std::erase_if(flags, [&](const Flag& flag) {
-    if (flag.first == key) text = flag.second;
-    return flag.first == key;
-  });
-  return text;
-}
 
 /// The ends of the curves' slips; takes the flag out.
 std::pair<double, double> take_slips(std::vector<Flag>& flags) {
@@ -135,22 +79,6 @@ void add_refusal(Json& document, const ServedAnswer& one) {
                            : "less load, another soil, other effects or another model may have one";
 }
 
-/// Self-contained HTML with the reports' style, charts and d3; where d3 isn't installed the page says so, and shows
-/// numbers without curves.
-std::string live_page(const Setup& setup) {
-  compare::Page page(title_of(setup.ask({}).question),
-                     "The answers of soilbin estimate: move a number, and everything follows.");
-  const std::vector<compare::EmbeddedFile> own = live_files();
-  page.raw("<style>\n" + compare::embedded(own, "live.css") + "</style>\n");
-  if (!page.libraries().d3)
-    page.raw(
-        "<p class=\"warning\" role=\"note\">d3 is not installed on this machine (package node-d3): numbers without "
-        "curves.</p>\n");
-  page.raw(compare::embedded(own, "live.html"));
-  page.script(compare::embedded(own, "wheel.js") + compare::embedded(own, "live.js"));
-  return page.html();
-}
-
 Reply estimate_reply(const Setup& setup, const std::string& query) {
   const std::vector<ServedAnswer> sides = answers_to(setup, query);
   const ServedAnswer& first = sides.front();
@@ -163,7 +91,7 @@ Reply estimate_reply(const Setup& setup, const std::string& query) {
   document["errors_in_words"] = compare::errors_in_words(question);
   document["readings"] = readings_json(first);
   document["numbers"] = numbers_json(question, setup.force_unit());
-  document["effects"] = effect_values_json(question);
+  document["effects"] = effect_values_json(question.study.models.front().effects);
   document["curves"] = curves_json(sides);
   document["budget"] = budget_json(sides);
   document["stresses"] = stresses_json(sides);
@@ -177,7 +105,7 @@ Reply estimate_reply(const Setup& setup, const std::string& query) {
   }
   const bool solved = compare::any_result(first.point);
   if (!solved) add_refusal(document, first);
-  return {solved ? 200U : 422U, "application/json", document.dump(-1, ' ', false, Json::error_handler_t::replace)};
+  return json_reply(document, solved ? 200U : 422U);
 }
 
 /// The curves' question as a case file, and their answers as `soilbin run` of that file saves them.
@@ -209,28 +137,22 @@ Reply curves_reply(const Setup& setup, std::string query) {
 
 }  // namespace
 
-Reply refusal(unsigned status, const std::string& what) {
-  const auto [error, hint] = error_and_hint(what);
-  return {status, "application/json", compare::json_text({{"error", error}, {"hint", hint}})};
-}
-
-Reply reply_to(const Setup& setup, std::string_view target) {
-  const std::size_t mark = std::min(target.find('?'), target.size());
-  const std::string_view path = target.substr(0, mark);
-  const std::string query(target.substr(std::min(mark + 1, target.size())));
-  try {
-    if (path == "/") return {200, "text/html; charset=utf-8", live_page(setup)};
-    if (path == "/favicon.ico") return {200, "image/svg+xml", icon};
-    if (path == "/case") return {200, "application/json", compare::json_text(setup.document())};
-    if (path == "/estimate") return estimate_reply(setup, query);
-    if (path == "/case.yaml") return case_reply(setup, query);
-    if (path == "/curves.csv") return curves_reply(setup, query);
-  } catch (const InputError& error) {
-    return refusal(400, error.what());
-  }
-  return refusal(404, fmt::format("there is no '{}' here\n  hint: there are /, /case, /estimate?load=80N&slip=20%25, "
-                                  "/case.yaml and /curves.csv",
-                                  clipped(std::string(path))));
+Reply reply_to(const Setup& setup, std::string_view target, const StillWanted& /*wanted*/) {
+  const Answers answers = {{"/",
+                            [&](const std::string&) {
+                              return page_reply(
+                                  title_of(setup.ask({}).question),
+                                  "The answers of soilbin estimate: move a number, and everything follows.",
+                                  {"wheel.html", {"drawing.js", "wheel.js", "wheel_page.js"}});
+                            }},
+                           {"/case",
+                            [&](const std::string&) {
+                              return Reply{200, "application/json", compare::json_text(setup.document())};
+                            }},
+                           {"/estimate", [&](const std::string& query) { return estimate_reply(setup, query); }},
+                           {"/case.yaml", [&](const std::string& query) { return case_reply(setup, query); }},
+                           {"/curves.csv", [&](const std::string& query) { return curves_reply(setup, query); }}};
+  return answered(answers, target, "there are /, /case, /estimate?load=80N&slip=20%25, /case.yaml and /curves.csv");
 }
 
 }  // namespace soilbin::cli

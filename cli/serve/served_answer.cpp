@@ -11,7 +11,6 @@
 #include "compare/measured/campaign.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/report/plot.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/wheel_limits.hpp"
 #include "compare/telling/answer_report.hpp"
@@ -35,6 +34,17 @@ bool tells_kilonewtons(const ServedAnswer& one) {
   return is_told_in_kilonewtons(one.asked.question.study.conditions.front().load);
 }
 
+/// How far the tire gives way at the middle of its contact [m]: by what the rim's angle of entry is deeper than its
+/// sinkage. 0 for a tire whose effects do not read its inflation pressure.
+double deflection(const ServedAnswer& one, const TractionResult& result) {
+  const Case& question = one.asked.question;
+  const bool flexible = bekker_wong::is_flexible(question.study.models.front().effects);
+  const double rim = question.scenario.tire.radius * (1.0 - std::cos(result.entry_angle));
+  return flexible ? std::max(0.0, rim - result.sinkage.value) : 0.0;
+}
+
+}  // namespace
+
 void in_kilonewtons(compare::Sheet& sheet) {
   const std::string newtons = "[N]";
   for (compare::Plot& plot : sheet.plots) {
@@ -46,17 +56,6 @@ void in_kilonewtons(compare::Sheet& sheet) {
         for (double& value : *values) value /= 1000.0;
   }
 }
-
-/// How far the tire gives way at the middle of its contact [m]: by what the rim's angle of entry is deeper than its
-/// sinkage. 0 for a tire whose effects do not read its inflation pressure.
-double deflection(const ServedAnswer& one, const TractionResult& result) {
-  const Case& question = one.asked.question;
-  const bool flexible = bekker_wong::is_flexible(question.study.models.front().effects);
-  const double rim = question.scenario.tire.radius * (1.0 - std::cos(result.entry_angle));
-  return flexible ? std::max(0.0, rim - result.sinkage.value) : 0.0;
-}
-
-}  // namespace
 
 Case swept_over(Case question, const std::pair<double, double>& slips) {
   OperatingCondition at = question.study.conditions.front();

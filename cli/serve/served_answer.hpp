@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/serve/setup.hpp"
+#include "compare/report/plot.hpp"
 #include "compare/sweep/answers.hpp"
 
 namespace soilbin::cli {
@@ -25,6 +26,9 @@ struct ServedAnswer {
 Case swept_over(Case question, const std::pair<double, double>& slips);
 
 ServedAnswer answer_to(Asked asked, const std::pair<double, double>& slips);
+
+/// Tells the forces of a sheet, in N by their titles, in kN.
+void in_kilonewtons(compare::Sheet& sheet);
 
 /// Sheets (compare/report/plot.hpp): the curves, the point marked on each; the parts of the drawbar pull piled
 /// up; the stresses along the contact at the point.

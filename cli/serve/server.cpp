@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <array>
@@ -61,7 +62,13 @@ bool is_foreign(const Request& request) {
   return !site.empty() && site != "same-origin" && site != "none" && !opens_page;
 }
 
-Reply reply_to_request(const Request& request, const Answering& answer) {
+/// Whether the other end is still there: one that has hung up leaves nothing to read.
+bool is_open(tcp::socket& socket) {
+  char next = 0;
+  return ::recv(socket.native_handle(), &next, 1, MSG_PEEK | MSG_DONTWAIT) != 0;
+}
+
+Reply reply_to_request(const Request& request, const Answering& answer, const StillWanted& wanted) {
   if (!names_this_machine(request[http::field::host]))
     return refusal(403, "this server answers its own machine only\n  hint: open the address that it printed");
   if (is_foreign(request))
@@ -70,7 +77,9 @@ Reply reply_to_request(const Request& request, const Answering& answer) {
     return refusal(405, "only GET is answered");
   const beast::string_view target = request.target();
   try {
-    return answer({target.data(), target.size()});
+    return answer({target.data(), target.size()}, wanted);
+  } catch (const GivenUp&) {
+    throw;
   } catch (const std::exception& error) {
     return refusal(500, fmt::format("this could not be answered: {}", error.what()));
   }
@@ -133,10 +142,12 @@ asio::awaitable<void> hear_out(beast::tcp_stream& stream) {
     heard += co_await stream.async_read_some(asio::buffer(rest), asio::use_awaitable);
 }
 
-/// Answers requests until one asks for no more. Throws system_error where the connection ends or fails.
+/// Answers requests until one asks for no more. Throws system_error where the connection ends or fails, GivenUp where
+/// it has ended before its answer was found.
 asio::awaitable<void> answer_requests(beast::tcp_stream& stream, const Answering& answer,
                                       const std::function<void()>& heard) {
   beast::flat_buffer buffer;
+  const StillWanted wanted = [&stream] { return is_open(stream.socket()); };
   for (bool more = true; more;) {
     stream.expires_after(patience);
     http::request_parser<http::string_body> parser;
@@ -147,7 +158,7 @@ asio::awaitable<void> answer_requests(beast::tcp_stream& stream, const Answering
     heard();
     if (!error) {
       const Request& request = parser.get();
-      const Response response = response_of(reply_to_request(request, answer), request.version(),
+      const Response response = response_of(reply_to_request(request, answer, wanted), request.version(),
                                             request.method() != http::verb::head, request.keep_alive());
       co_await http::async_write(stream, response, asio::use_awaitable);
       more = response.keep_alive();

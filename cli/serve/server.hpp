@@ -5,12 +5,12 @@
 #include <string>
 #include <string_view>
 
-#include "cli/serve/replies.hpp"
+#include "cli/serve/reply.hpp"
 
 namespace soilbin::cli {
 
-/// What answers a target, such as "/estimate?slip=20%25".
-using Answering = std::function<Reply(std::string_view target)>;
+/// What answers a target, such as "/estimate?slip=20%25". It may throw GivenUp.
+using Answering = std::function<Reply(std::string_view target, const StillWanted& wanted)>;
 
 /// Answers GET and HEAD at 127.0.0.1 until Ctrl-C (SIGINT) or SIGTERM. `port` 0: any free one. `listening` is called
 /// once with the address, "http://127.0.0.1:8080/". One thread; answers come one at a time. Requests that name another

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include "cli/command_words.hpp"
 #include "cli/outputs.hpp"
 #include "cli/question.hpp"
 #include "cli/serve/controls.hpp"
@@ -16,7 +15,6 @@
 #include "compare/sweep/varying.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/quantity.hpp"
-#include "scenario/source_text.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -49,28 +47,6 @@ std::vector<Flag> as_flags(const OperatingCondition& at) {
   return flags;
 }
 
-/// Soils of the library that the analytic model can take.
-Json soils_json(const Library& library) {
-  Json names = Json::array();
-  for (const std::string& name : library.names(Shelf::soils)) {
-    try {
-      if (find_soil(name, library).semi_empirical) names.push_back(name);
-    } catch (const InputError&) {  // told by `soilbin list soils`
-    }
-  }
-  return names;
-}
-
-void refuse_files(const std::vector<Flag>& query, const Library& library) {
-  for (const auto& [key, name] : query)
-    for (const Shelf shelf : {Shelf::soils, Shelf::tires})
-      if (key == (shelf == Shelf::soils ? "soil" : "tire") && !library.find(shelf, name)) {
-        const std::vector<std::string> names = library.names(shelf);
-        throw InputError(fmt::format("--{}: '{}' is none of the library's {}{}\n  hint: there are {}", key,
-                                     clipped(name), folder_of(shelf), did_you_mean(name, names), listed(names)));
-      }
-}
-
 /// The flags of one condition that tell it from the others.
 std::vector<Flag> telling(const OperatingCondition& one, const std::vector<OperatingCondition>& all) {
   std::vector<Flag> same = as_flags(one), flags;
@@ -82,10 +58,6 @@ std::vector<Flag> telling(const OperatingCondition& one, const std::vector<Opera
     same.erase(differs, same.end());
   }
   return flags;
-}
-
-bool holds(const std::vector<Flag>& flags, const std::string& key) {
-  return std::ranges::any_of(flags, [&](const Flag& flag) { return flag.first == key; });
 }
 
 /// Whether the flags name a model that takes no effects.
@@ -103,6 +75,17 @@ Json models_json() {
 }
 
 }  // namespace
+
+Json soils_json(const Library& library) {
+  Json names = Json::array();
+  for (const std::string& name : library.names(Shelf::soils)) {
+    try {
+      if (find_soil(name, library).semi_empirical) names.push_back(name);
+    } catch (const InputError&) {  // told by `soilbin list soils`
+    }
+  }
+  return names;
+}
 
 std::string model_of(const Case& question) {
   return compare::model_in_words(std::string(word_of(question.study.models.front().model)));
@@ -130,15 +113,12 @@ Setup::Setup(const Workplace& place, std::string case_name, std::vector<Flag> fl
 
 Asked Setup::put_together(const std::vector<Flag>& query) const {
   Asked asked;
-  asked.words = {"estimate"};
-  if (!case_name_.empty()) asked.words.push_back(case_name_);
   const bool other_tire = holds(query, "tire"), other_soil = holds(query, "soil");
   const bool other_model = names_other_model(query);
-  for (const Flag& flag : start_)
-    if (!holds(query, flag.first) && !(other_tire && is_tire_flag(flag.first)) &&
-        !(other_soil && is_soil_flag(flag.first)) && !(other_model && flag.first == "effect"))
-      asked.words.push_back("--" + flag.first + "=" + flag.second);
-  for (const Flag& flag : query) asked.words.push_back("--" + flag.first + "=" + flag.second);
+  asked.words = words_of("estimate", case_name_, start_, query, [&](const Flag& flag) {
+    return (other_tire && is_tire_flag(flag.first)) || (other_soil && is_soil_flag(flag.first)) ||
+           (other_model && flag.first == "effect");
+  });
   CLI::App app("", asked.words.front());
   app.set_help_flag("");
   Question question(app);
@@ -147,12 +127,7 @@ Asked Setup::put_together(const std::vector<Flag>& query) const {
   QuickModelFlag model;
   model.add_to(app);
   if (!query.empty()) question.allow_conditions(most_asked_at_once);  // a server is not kept busy by one address
-  if (const std::string problem = unknown_flag(app, asked.words); !problem.empty()) throw InputError(problem);
-  try {
-    app.parse(std::vector<std::string>(asked.words.rbegin(), asked.words.rend() - 1));
-  } catch (const CLI::ParseError& error) {
-    throw InputError(refusal_of(error, "estimate "));
-  }
+  read_words(app, asked.words);
   asked.question = question.ask(place_);
   model.apply(asked.question, question.names_effects());
   asked.base_model = question.switches_effects_off();
@@ -173,6 +148,7 @@ Asked Setup::ask(const std::vector<Flag>& query) const {
 
 Json Setup::document() const {
   const Case question = ask({}).question;
+  const ModelChoice& model = question.study.models.front();
   return {{"format", "soilbin-serve/1"},
           {"tire", in_words(question.scenario.tire)},
           {"tire_name", question.scenario.tire.name},
@@ -180,9 +156,9 @@ Json Setup::document() const {
           {"tires", place_.library.names(Shelf::tires)},
           {"soils", soils_json(place_.library)},
           {"models", models_json()},
-          {"model", word_of(question.study.models.front().model)},
+          {"model", word_of(model.model)},
           {"numbers", numbers_json(question, force_unit_)},
-          {"effects", effects_json(question)}};
+          {"effects", effects_json(model.effects, question.scenario.soil)}};
 }
 
 }  // namespace soilbin::cli

@@ -4,16 +4,13 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cli/question.hpp"
+#include "cli/serve/query.hpp"
 #include "cli/workplace.hpp"
 
 namespace soilbin::cli {
-
-/// A flag of `soilbin estimate` without its dashes, and its value: {"load", "80N"}.
-using Flag = std::pair<std::string, std::string>;
 
 /// A question of one condition, and the words that ask `soilbin` the same: {"estimate", "paper-straight",
 /// "--slip=20%"}.
@@ -23,6 +20,9 @@ struct Asked {
   bool base_model = false;  ///< every effect was switched off by name
   TireFlags tire;           ///< what of the tire is left out
 };
+
+/// Soils of the library that the analytic model can take.
+nlohmann::ordered_json soils_json(const Library& library);
 
 /// The model of a question of one, in words: "resistive force theory".
 std::string model_of(const Case& question);

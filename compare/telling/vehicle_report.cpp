@@ -85,7 +85,7 @@ std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
                                 number({v.slip, told_error(answers.errors.slip)}, 100),
                                 number({v.power.into_wheels, told_error(answers.errors.into_wheels)}, 1 / unit), prefix,
                                 number(v.power.into_wheels / v.at.speed / unit, 3), prefix)});
-    if (answers.power_speed && answers.holds_speed() && answers.fastest->limit == TravelLimit::power)
+    if (answers.power_speed && answers.holds_speed() && answers.fastest && answers.fastest->limit == TravelLimit::power)
       said.push_back({"Power", fmt::format("All of it is used at {} m/s.", number(*answers.power_speed, 3))});
     if (v.crab != 0.0)
       said.push_back(
@@ -102,9 +102,30 @@ std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
     said.push_back({"It does not travel", failure_in_words(answers.wheels, *answers.failure) + "."});
   }
   add_motor_verdicts(answers, said);
+  if (!answers.in_full) return said;
   said.push_back({"Steepest slopes", fmt::format("Up {}, down {}, across {}.", angle_of(answers.up),
                                                  angle_of(answers.down), angle_of(answers.across))});
   return said;
+}
+
+std::vector<KeyFigure> key_figures_of(const VehicleAnswers& answers) {
+  std::vector<KeyFigure> figures;
+  if (answers.steady) {
+    const SteadyVehicle& v = *answers.steady;
+    const bool kilo = std::abs(v.power.into_wheels) >= 1000.0;
+    const double unit = kilo ? 1000.0 : 1.0;
+    figures.push_back({number({v.slip, told_error(answers.errors.slip)}, 100) + " %", "slip of the drive line"});
+    figures.push_back(
+        {number({v.power.into_wheels, told_error(answers.errors.into_wheels)}, 1 / unit) + (kilo ? " kW" : " W"),
+         "into the wheels"});
+  } else {
+    figures.push_back({"It does not travel", "in this condition"});
+  }
+  if (!answers.in_full) return figures;
+  figures.push_back({angle_of(answers.up), "steepest up"});
+  figures.push_back({angle_of(answers.down), "steepest down"});
+  figures.push_back({angle_of(answers.across), "steepest across"});
+  return figures;
 }
 
 TableCell limit_in_words(const VehicleLimit& limit) {
@@ -201,7 +222,7 @@ std::vector<std::string> vehicle_remarks(const VehicleAnswers& answers) {
         "the last one; its other forms know the number of the pass alone.");
   const std::optional<double> slides =
       bekker_wong::sliding_slope(answers.question.soil, answers.question.axles.front().tire);
-  if (slides &&
+  if (slides && answers.in_full &&
       std::ranges::any_of(std::array{answers.up, answers.down, answers.across},
                           [&](const VehicleLimit& limit) { return limit.angle && limit.angle->value > *slides; }))
     said.push_back(fmt::format(
@@ -440,9 +461,10 @@ Report report_on(const VehicleAnswers& answers) {
   Report report{"Vehicle: " + question.name, "Does it go, how steep, and which wheel gives out?",
                 fmt::format("{} ({:.6g} kg) on {}: {}", question.name, question.mass, question.soil.name,
                             condition_in_words(question.condition))};
+  report.add(KeyFigures{key_figures_of(answers)}, Told::on_pages);
   report.add(Sentences(vehicle_verdicts(answers)));
   report.add(WarningsHere());
-  report.add("How steep", limits_of_vehicle(answers));
+  if (answers.in_full) report.add("How steep", limits_of_vehicle(answers));
   if (!answers.climbs.empty()) report.add("How fast", climbs_table(answers));
   if (answers.steady) {
     report.add("Wheel by wheel", wheels_table(answers));

@@ -201,8 +201,18 @@ void SteadyVehicles::roll_axle(std::size_t axle, double slip, const Rims& rims, 
     wheels[i] = rolled(i, at[i]);
     return wheels[i].result.torque.value;
   };
+  /// The wheel that is asked the same as the one beside it answers the same.
+  const auto each = [&](const auto& answer) {
+    const bool twins = mine.size() == 2 && at[mine[0]] == at[mine[1]] && rims.asked[mine[0]] == rims.asked[mine[1]];
+    for (const std::size_t i : mine) {
+      if (twins && i == mine[1])
+        wheels[i] = wheels[mine[0]];
+      else
+        answer(i);
+    }
+  };
   if (about.driven == YesNo::no) {
-    for (const std::size_t i : mine) wheels[i] = free(i, at[i], no_torque, 0.0);
+    each([&](std::size_t i) { wheels[i] = free(i, at[i], no_torque, 0.0); });
   } else if (vehicle_.drive_line == DriveLine::open_axles && mine.size() == 2) {
     const std::size_t left = mine[0], right = mine[1];
     if (at[left].load <= 0.0 || at[right].load <= 0.0) {  // a wheel in the air takes no torque, nor does the other
@@ -227,7 +237,7 @@ void SteadyVehicles::roll_axle(std::size_t axle, double slip, const Rims& rims, 
     throw VehicleGaveOut(GaveOut::wheel, direction > 0 ? left : right,
                          "its differential turns it without end: it takes less torque than the other wheel");
   } else {
-    for (const std::size_t i : mine) {
+    each([&](std::size_t i) {
       const auto largest = [&, in_plane = at[i].speed * std::cos(at[i].yaw)](double at_slip) {
         if (!about.motor) return about.largest_torque.value_or(HUGE_VAL);
         const double spin = in_plane / speed_ratio(at_slip) / about.tire.radius;
@@ -237,7 +247,7 @@ void SteadyVehicles::roll_axle(std::size_t axle, double slip, const Rims& rims, 
         wheels[i] = free(i, at[i], largest, at[i].slip);
         wheels[i].at_largest_torque = true;
       }
-    }
+    });
   }
 }
 

@@ -9,6 +9,7 @@
 #include "bekker_wong/presumption.hpp"
 #include "scenario/effect_choices.hpp"
 #include "scenario/mapping_reader.hpp"
+#include "scenario/mapping_writer.hpp"
 #include "scenario/named_parts.hpp"
 #include "scenario/soil_parameters.hpp"
 
@@ -113,6 +114,27 @@ VehicleCase parse_vehicle_case(const SourceText& source, const Library& library,
     vehicle.drive = read_vehicle_drive(*drive, near, reading);
   if (const std::string wrong = contradiction(vehicle); !wrong.empty()) reading.refuse(axles, wrong);
   return vehicle;
+}
+
+std::string write_vehicle_case(const VehicleCase& vehicle, const EffectVocabulary& effects) {
+  YamlLines lines;
+  lines.value("format", vehicle_case_format);
+  Writing writing{&lines, std::nullopt, nullptr, ""};
+  write_members(vehicle, writing);
+  lines.open("axles");
+  for (const VehicleAxle& axle : vehicle.axles) {
+    lines.open_item();
+    write_members(axle, writing);
+    write_group("tire", axle.tire, lines);
+    lines.close();
+  }
+  lines.close();
+  write_group("soil", vehicle.soil, lines);
+  std::optional<double> n;
+  if (vehicle.soil.semi_empirical) n = vehicle.soil.semi_empirical->exponent.value;
+  write_effects(vehicle.effects, effects, n, lines);
+  write_group("drive", vehicle.drive, lines);
+  return lines.text();
 }
 
 VehicleCase find_vehicle_case(const std::string& name, const Library& library, const EffectVocabulary& effects) {

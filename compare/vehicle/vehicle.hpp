@@ -205,6 +205,8 @@ inline constexpr const char* vehicle_case_format = "soilbin-vehicle-case/1";
 /// Reads a vehicle on a soil. Tires and soil are named or written out as in a case. Throws InputError with file, line,
 /// column and hint.
 VehicleCase parse_vehicle_case(const SourceText& source, const Library& library, const EffectVocabulary& effects);
+/// The file that parse_vehicle_case reads to the same bits, with tires and soil written out.
+std::string write_vehicle_case(const VehicleCase& vehicle, const EffectVocabulary& effects);
 /// A vehicle of the library by its name ("truck"), or of a file.
 VehicleCase find_vehicle_case(const std::string& name, const Library& library, const EffectVocabulary& effects);
 

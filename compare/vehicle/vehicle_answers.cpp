@@ -185,17 +185,18 @@ VehicleLimit steepest_climb(const VehicleCase& question, const std::vector<Vehic
   return steepest(question, wheels, model, SlopeWay::up);
 }
 
-VehicleAnswers answers_of(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model) {
+VehicleAnswers state_of(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model) {
   if (!question.soil.semi_empirical)
     throw InputError("soil '" + question.soil.name + "' has no semi_empirical values, which a vehicle needs");
   VehicleAnswers answers{question, wheels};
+  answers.in_full = false;
   const SteadyVehicles vehicles(question, wheels, model);
   const VehicleCondition& at = question.condition;
   try {
     answers.steady = vehicles.pulling(at);
-    answers.errors = errors_of_steady(question, wheels, model, at);
     if (question.power && answers.steady->power.into_wheels > 0.0)
       answers.power_speed = speed_at_power(*question.power, *answers.steady);
+    answers.not_held = not_held_by(question, *answers.steady);
   } catch (const VehicleGaveOut& error) {
     answers.failure = as_failure(error);
   }
@@ -203,14 +204,24 @@ VehicleAnswers answers_of(const VehicleCase& question, const std::vector<Vehicle
     VehiclePullRow row{percent / 100.0};
     try {
       row.vehicle = vehicles.at_slip(at, row.slip);
-      row.pull_error = errors_of(wheels, 1, [&](const std::vector<VehicleWheel>& changed) {
-        return VehicleNumbers{SteadyVehicles(question, changed, model).at_slip(at, row.slip).pull};
-      })[0];
     } catch (const VehicleGaveOut& error) {
       row.failure = as_failure(error);
     }
     answers.pulls.push_back(std::move(row));
   }
+  return answers;
+}
+
+VehicleAnswers answers_of(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model) {
+  VehicleAnswers answers = state_of(question, wheels, model);
+  answers.in_full = true;
+  const VehicleCondition& at = question.condition;
+  if (answers.steady) answers.errors = errors_of_steady(question, wheels, model, at);
+  for (VehiclePullRow& row : answers.pulls)
+    if (row.vehicle)
+      row.pull_error = errors_of(wheels, 1, [&](const std::vector<VehicleWheel>& changed) {
+        return VehicleNumbers{SteadyVehicles(question, changed, model).at_slip(at, row.slip).pull};
+      })[0];
   const auto [up, down, across] = steepest_slopes(question, wheels, model);
   answers.up = up, answers.down = down, answers.across = across;
   if (is_limited(question)) add_speeds(answers, model);

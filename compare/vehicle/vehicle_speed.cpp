@@ -212,7 +212,6 @@ void add_speeds(VehicleAnswers& answers, const Model& model) {
   answers.fastest = fastest_travel(question, answers.wheels, model, question.condition);
   if (answers.fastest->speed && !has_wheel_motors(question))
     answers.fastest->speed->std_error = speed_error(question, answers.wheels, model, question.condition);
-  if (answers.steady) answers.not_held = not_held_by(question, *answers.steady);
   answers.gradeability = gradeability_of(answers, model);
   constexpr double step = 5 * degree, steepest = 1.2;
   for (int i = 0; i * step < std::min(steepest, answers.up.angle ? answers.up.angle->value : 0.0); ++i)

@@ -193,6 +193,54 @@ TEST(VehicleCommand, RefusesAMotorThatItCannotRead) {
   EXPECT_THAT(told("motor:", "drive_line: motors\nmotor:"), HasSubstr("give 'motor' to the axles"));
 }
 
+TEST(VehicleCommand, FlagsOfTheMachineAreAFileThatSaysTheSame) {
+  const Scratch scratch;
+  const std::string file = scratch
+                               .write("heavy.yaml", R"(format: soilbin-vehicle-case/1
+name: heavy
+mass: 90 kg
+centre_of_gravity: {x: 0.5 m, z: 0.8 m}
+drive_line: sides
+power: 50 W
+axles:
+  - {name: front, x: 1.2 m, track: 1.3 m, steered: yes, tire: {name: rover 0.5 m, radius: 250 mm, width: 200 mm}}
+  - {name: rear, x: 0 m, track: 1.3 m, tire: {name: rover 0.5 m, radius: 250 mm, width: 200 mm}}
+soil: grc-1
+effects: [{id: slip_sinkage, form: lyasko, parameters: {a: 0.5}}]
+condition: {speed: 0.1 m/s, slope: 2 deg}
+)")
+                               .string();
+  const auto as_file = soilbin("vehicle '" + file + "' --json").json();
+  const auto as_flags = soilbin(
+                            "vehicle rover --mass 90kg --centre-of-gravity-x 0.5m --centre-of-gravity-z 0.8m "
+                            "--drive-line sides --power 50W --slope 2deg "
+                            "--effect slip_sinkage:lyasko,a=0.5 --json")
+                            .json();
+  for (const char* key : {"condition", "steady", "steepest", "pulls", "speed_at_largest_power"})
+    EXPECT_EQ(as_flags.at(key), as_file.at(key)) << key;
+  EXPECT_EQ(as_flags.at("vehicle"), "rover, changed");
+}
+
+TEST(VehicleCommand, TakesASoilsValuesByFlags) {
+  const auto weaker = soilbin("vehicle " + rover + " --friction-angle 25+-0deg --json").json();
+  const auto declared = soilbin("vehicle " + rover + " --json").json();
+  const auto up = [](const auto& answer) { return answer.at("steepest").at("up").at("slope"); };
+  EXPECT_LT(up(weaker).at("value").template get<double>(), up(declared).at("value").template get<double>());
+  EXPECT_EQ(weaker.at("soil").get<std::string>(), declared.at("soil").get<std::string>() + ", changed");
+}
+
+TEST(VehicleCommand, RefusesFlagsThatContradictItsFile) {
+  const auto told = [](const std::string& flags) {
+    const Outcome run = soilbin("vehicle rover " + flags);
+    EXPECT_EQ(run.status, 2) << flags;
+    return run.err;
+  };
+  EXPECT_THAT(told("--driven frnt"), HasSubstr("no axle is called 'frnt', did you mean 'front'?"));
+  EXPECT_THAT(told("--drive-line lockd"), HasSubstr("did you mean 'locked'?"));
+  EXPECT_THAT(told("--mass 0kg"), HasSubstr("--mass"));
+  EXPECT_THAT(told("--effect none --effect multipass"), HasSubstr("--effect none excludes all others"));
+}
+
 TEST(VehicleCommand, ItsFileIsChecked) {
   EXPECT_THAT(soilbin("check " + rover).out, HasSubstr("valid: vehicle 'rover': 2 axles on"));
   const Scratch scratch;

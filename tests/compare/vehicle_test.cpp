@@ -337,6 +337,31 @@ TEST(Vehicle, TheHeaviestWheelMakesTheRut) {
   EXPECT_EQ(v.wheels[4].result.at.rut_slip, v.wheels[2].result.at.slip);
 }
 
+TEST(VehicleFile, IsWrittenAndReadToTheBit) {
+  VehicleCase written = rover();
+  written.source = "made: for this test", written.drive_line = DriveLine::motors, written.power = 1234.5;
+  written.mass = 40.0 / 3.0, written.centre_of_gravity = {0.1 / 3.0, 0.01, 0.4};
+  written.axles[0].motor = GearedMotor{{{0.0, 20.0}, {6.0, 5.0}}, 3.0, 0.9};
+  written.axles[1].driven = YesNo::no, written.axles[1].steered = YesNo::yes, written.axles[1].largest_steer = 0.3;
+  written.effects = {{"multipass", "stiffer", {}}};
+  for (VehicleAxle& axle : written.axles) axle.tire.name = "wheel", axle.stiffness = 1e5 / 7.0;
+  written.condition = {0.1, -0.05, 0.7, 33.3};
+  written.drive.duration = 12.0, written.drive.profile = {{.at = 1.0}, {.at = 4.0, .longitudinal_incline = 0.2}};
+  const bekker_wong::CatalogueVocabulary effects;
+  const std::string text = write_vehicle_case(written, effects);
+  const VehicleCase read = parse_vehicle_case(make_source_text(text, "vehicle.yaml"), Library(), effects);
+  EXPECT_EQ(write_vehicle_case(read, effects), text);
+  EXPECT_EQ(read.mass, written.mass);
+  EXPECT_EQ(read.centre_of_gravity.x, written.centre_of_gravity.x);
+  EXPECT_EQ(read.condition.pull, written.condition.pull);
+  ASSERT_EQ(read.axles.size(), 2u);
+  EXPECT_EQ(read.axles[0].motor->torque_curve[1].speed, 6.0);
+  EXPECT_EQ(read.axles[1].stiffness, written.axles[1].stiffness);
+  EXPECT_EQ(read.axles[1].tire.radius, written.axles[1].tire.radius);
+  EXPECT_EQ(read.soil.semi_empirical->k_phi.value, written.soil.semi_empirical->k_phi.value);
+  EXPECT_EQ(read.drive.profile[1].longitudinal_incline, 0.2);
+}
+
 TEST(Vehicle, SaysWhichWheelGaveOut) {
   VehicleCase question = rover();
   question.mass = 450.0, question.centre_of_gravity = {0.1, 0.0, 0.4};

@@ -9,61 +9,14 @@ import time
 import unittest
 from pathlib import Path
 
+from live_page import LivePage, browser
 from server import Server, soilbin
-
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "report"))
-import browser  # noqa: E402
 
 PICTURES = Path(sys.argv.pop(1)) if "--pictures" in sys.argv[1:2] and sys.argv.pop(1) else None
 
 
-@unittest.skipUnless(browser.find(), "no Chromium")
-class ThePage(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.server = Server("paper-straight", "--load", "4kN")
-        cls.browser = browser.Browser()
-        cls.open("")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.__exit__()
-        cls.server.stop()
-
-    @classmethod
-    def open(cls, behind):
-        cls.browser.open("about:blank")
-        cls.browser.open(cls.server.address + behind)
-        assert cls.browser.until("document.querySelectorAll('#curves .line').length === 5"), cls.browser.errors
-
-    def js(self, expression):
-        return self.browser.js(expression)
-
-    def move(self, key, value, control="range"):
-        """Sets a slider or box as a person does, and waits for the answer."""
-        self.js(f"(e => {{ e.value = {value}; e.dispatchEvent(new Event('input')); }})(soilbin.live.numbers.get('{key}')"
-                f".{'slider' if control == 'range' else 'box'})")
-        self.assertTrue(self.browser.until("!soilbin.live.asking"))
-
-    def listed(self, title):
-        return f"[...document.querySelectorAll('.chooser')].find(l => l.firstChild.textContent === '{title} ').querySelector('select')"
-
-    def choose(self, title, value):
-        self.js(f"(s => {{ s.value = '{value}'; s.dispatchEvent(new Event('change')); }})({self.listed(title)})")
-        self.assertTrue(self.browser.until("!soilbin.live.asking"))
-
-    def reset(self):
-        self.js("document.getElementById('reset').click()")
-        self.assertTrue(self.browser.until("!soilbin.live.asking"))
-
-    def command(self):
-        return self.js("document.getElementById('command').textContent")
-
-    def wheel(self):
-        return self.js("document.querySelector('#ground svg').outerHTML")
-
-    def pull(self):
-        return self.js("document.querySelector('#curves .line').getAttribute('d')")
+class ThePage(LivePage):
+    words, drawn = ("paper-straight", "--load", "4kN"), "document.querySelectorAll('#curves .line').length === 5"
 
     def test_1_opens_without_errors_and_asks_for_nothing_elsewhere(self):
         self.assertEqual(self.browser.errors, [])

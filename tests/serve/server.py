@@ -34,7 +34,7 @@ class Server:
 
     def ask(self, target, method="GET", **headers):
         """Status, headers and text of a target."""
-        line = http.client.HTTPConnection("127.0.0.1", self.port, timeout=20)
+        line = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
         line.request(method, target, headers=headers)
         answer = line.getresponse()
         text = answer.read().decode()
@@ -42,9 +42,12 @@ class Server:
         return answer.status, answer.headers, text
 
     def estimate(self, **flags):
+        return self.answer("/estimate", **flags)
+
+    def answer(self, path, **flags):
         """Status and document; a flag that is given as a list is given again and again."""
         pairs = [(key, one) for key, value in flags.items() for one in (value if isinstance(value, list) else [value])]
-        status, _, text = self.ask("/estimate?" + "&".join(f"{k.replace('_', '-')}={quote(v)}" for k, v in pairs))
+        status, _, text = self.ask(f"{path}?" + "&".join(f"{k.replace('_', '-')}={quote(v)}" for k, v in pairs))
         return status, json.loads(text)
 
 

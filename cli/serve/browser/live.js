@@ -1,5 +1,5 @@
-// The live page: controls make a query of the flags of `soilbin estimate`, the server answers, charts follow. What differs from
-// the start stands in the address behind '#', spelled like the query.
+// What every live page has: controls make a query of a command's flags, the server answers, numbers and charts follow. What
+// differs from the start stands in the address behind '#', spelled like the query. A page of its own extends LivePage.
 'use strict';
 
 soilbin.make = function (tag, set = {}, ...inside) {
@@ -10,26 +10,33 @@ soilbin.make = function (tag, set = {}, ...inside) {
 soilbin.part = id => document.getElementById(id);
 // '80N', '0.2 1/kPa'.
 soilbin.quantity = (value, unit) => unit.startsWith('1') ? `${value} ${unit}` : value + unit;
-soilbin.slipRanges = [['0%..100%', '0 to 100 %'], ['0%..40%', '0 to 40 %'], ['-100%..100%', '\u2212100 (braked) to 100 %']];
 
-// Effects that a tire declares: the flag that leaves them out, and the number that tells them.
-soilbin.leftOutBy = {lug_thrust: {flag: 'no-lugs', number: 'lug-height'},
-                     tire_flexibility: {flag: 'rigid', number: 'inflation-pressure'}};
+// Flags that leave out what a tire declares, by the effect that it takes.
+soilbin.leftOutBy = {lug_thrust: 'no-lugs', tire_flexibility: 'rigid'};
 
-// Figures of charts, and the sheet of the answer that each shows.
-soilbin.chartFigures = ['budget', 'curves', 'stresses'];
-
-soilbin.Live = class {
-  constructor(start) {
-    this.start = start;
-    this.charts = {budget: [], curves: [], stresses: []};
+// A page says:
+//   asks                 what of the server answers a query: 'estimate'
+//   drawing              what the figure #ground shows: 'wheel'
+//   chartFigures         its figures of charts, each named as the sheet of the answer that it shows
+//   saves                links to what the server saves, by their ids: ['save-csv', 'curves.csv?']
+//   controls()           the elements of the form
+//   tell(answer)         words and numbers of an answer
+//   data()               the sheet that goes with the drawing #ground
+// and may say more by what is called below.
+soilbin.LivePage = class {
+  constructor(start, {asks, drawing, chartFigures, saves}) {
+    Object.assign(this, {start, asks, chartFigures, saves});
+    this.charts = Object.fromEntries(chartFigures.map(place => [place, []]));
     this.numbers = new Map();
     this.lists = [];
-    this.taken = new Map();  // effects that nobody named and the tire declares: id, 'id:form'
+    this.taken = new Map();  // effects that nobody named and a tire declares: id, 'id:form'
     this.state = new URLSearchParams(location.hash.slice(1));
-    this.addControls();
-    for (const [place, name, what] of [['ground', 'wheel', 'stresses'], ...soilbin.chartFigures.map(p => [p, p, p])])
-      soilbin.addTakeAlong(soilbin.part(place), name, name, () => this.answer[what]);
+    const form = document.querySelector('.live-page form');
+    form.addEventListener('submit', event => event.preventDefault());
+    form.replaceChildren(...this.controls());
+    this.showControls();
+    soilbin.addTakeAlong(soilbin.part('ground'), drawing, drawing, () => this.data());
+    for (const place of chartFigures) soilbin.addTakeAlong(soilbin.part(place), place, place, () => this.answer[place]);
     this.ask();
     window.addEventListener('hashchange', () => this.go(location.hash.slice(1)));
     soilbin.part('reset').addEventListener('click', () => this.go(''));
@@ -40,10 +47,15 @@ soilbin.Live = class {
       soilbin.saveFile('soilbin.png', await soilbin.pngOf(soilbin.figureSvg(document.querySelector('.results'))), 'image/png'));
   }
 
-  go(query) {
-    this.state = new URLSearchParams(query);
+  // Controls as the state has them.
+  showControls() {
     this.showEffects();
     this.showLists();
+  }
+
+  go(query) {
+    this.state = new URLSearchParams(query);
+    this.showControls();
     this.ask();
   }
 
@@ -54,36 +66,30 @@ soilbin.Live = class {
     this.ask();
   }
 
-  addControls() {
-    const form = document.querySelector('.live-page form'), {make} = soilbin, wide = window.innerWidth > 820;
-    const group = (title, open, ...inside) => make('details', {open}, make('summary', {textContent: title}), ...inside);
-    const list = (title, options, key, start, changed = () => {}) => {
-      const select = make('select');
-      for (const [value, text] of options) select.add(new Option(text, value));
-      select.addEventListener('change', () => { changed(); this.set(key, select.value, start); });
-      this.lists.push([select, key, start]);
-      return make('label', {className: 'chooser'}, title + ' ', select);
-    };
-    // Of a shelf of the library; what was changed of the one before goes with it.
-    const preset = (title, key, own, names) => list(title, [['', `${own} (start)`]].concat(names.map(n => [n, n])), key, '', () => {
+  group(title, open, ...inside) {
+    return soilbin.make('details', {open}, soilbin.make('summary', {textContent: title}), ...inside);
+  }
+
+  list(title, options, key, start, changed = () => {}) {
+    const select = soilbin.make('select');
+    for (const [value, text] of options) select.add(new Option(text, value));
+    select.addEventListener('change', () => { changed(); this.set(key, select.value, start); });
+    this.lists.push([select, key, start]);
+    return soilbin.make('label', {className: 'chooser'}, title + ' ', select);
+  }
+
+  // Of a shelf of the library; what was changed of the one before goes with it.
+  preset(title, key, own, names) {
+    return this.list(title, [['', `${own} (start)`]].concat(names.map(n => [n, n])), key, '', () => {
       for (const {key: number, group: of} of this.start.numbers) if (of === key) this.state.delete(number);
     });
-    const models = this.start.models.map(({name, title}) => [name, title]);
-    const beside = (title, key, names) => list(title, [['', 'none']].concat(names.map(n => [n, n])), key, '');
-    const numbers = of => this.start.numbers.filter(n => n.group === of).map(n => this.addNumber(n));
-    form.addEventListener('submit', event => event.preventDefault());
-    form.replaceChildren(
-      list('Model', models, 'model', this.start.model, () => { this.state.delete('effect'); }),
-      group('Condition', true, ...numbers('condition')),
-      group('Wheel', wide, preset('Tire', 'tire', this.start.tire_name, this.start.tires), ...numbers('tire')),
-      group('Soil', wide, preset('Soil', 'soil', this.start.soil, this.start.soils), ...numbers('soil')),
-      group('Beside it', wide, beside('A second soil', 'beside-soil', this.start.soils),
-            beside('A second tire', 'beside-tire', this.start.tires),
-            list('A second model', [['', 'none'], ...models], 'beside-model', '')),
-      this.effects = make('details', {open: false}, make('summary'), ...this.start.effects.map(effect => this.addEffect(effect))),
-      group('Curves', wide, list('Slip from', soilbin.slipRanges, 'slips', soilbin.slipRanges[0][0])));
-    this.showEffects();
-    this.showLists();
+  }
+
+  numbersOf(group) { return this.start.numbers.filter(n => n.group === group).map(n => this.addNumber(n)); }
+
+  effectsGroup() {
+    return this.effects = soilbin.make('details', {open: false}, soilbin.make('summary'),
+                                       ...this.start.effects.map(effect => this.addEffect(effect)));
   }
 
   // `number.value` and `number.sd` are what stands there while no flag says otherwise.
@@ -169,9 +175,12 @@ soilbin.Live = class {
   effectWords() {
     return this.state.has('effect') ? this.state.getAll('effect').filter(word => word !== 'none') : this.startEffects();
   }
+  takesEffects() { return true; }
+  // Whether a tire declares what an effect is about.
+  declares(effect) { return this.taken.has(effect.id); }
   wordOf(effect) { return this.effectWords().find(word => word.split(/[:,]/)[0] === effect.id); }
   showEffects() {
-    this.effects.hidden = (this.state.get('model') || this.start.model) !== 'bekker_wong';
+    this.effects.hidden = !this.takesEffects();
     for (const effect of this.start.effects) effect.show(this.wordOf(effect));
     for (const {key, effects} of this.start.numbers)
       if (effects) this.numbers.get(key).element.hidden = !effects.some(id => this.wordOf({id}));
@@ -182,8 +191,7 @@ soilbin.Live = class {
 
   // What a tire declares comes back where it is only not named: a flag leaves it out.
   tickEffect(effect, on) {
-    const {flag, number} = soilbin.leftOutBy[effect.id] || {};
-    const declared = flag && Number(this.numbers.get(number).box.value) > 0;
+    const flag = soilbin.leftOutBy[effect.id], declared = flag && this.declares(effect);
     if (flag && on && this.state.has(flag)) {
       this.state.delete(flag);
       return this.ask();
@@ -210,7 +218,7 @@ soilbin.Live = class {
     while (this.waiting) {
       this.waiting = false;
       try {
-        const began = performance.now(), response = await fetch(`estimate?${this.state}`), answer = await response.json();
+        const began = performance.now(), response = await fetch(`${this.asks}?${this.state}`), answer = await response.json();
         this.show(answer);
         document.documentElement.dataset.milliseconds = (performance.now() - began).toFixed(1);
       } catch (error) {
@@ -241,23 +249,23 @@ soilbin.Live = class {
                         ...(error && hint ? [soilbin.make('p', {textContent: `Hint: ${hint}`})] : []));
   }
 
+  // What is wrong, or doubtful, in an answer.
+  say(answer) { this.complain(answer.error || (answer.warnings || []).join('; '), answer.hint); }
+  // Whether there is something in an answer to draw in the place of the last one.
+  isDrawn(answer) { return Boolean(answer.curves); }
+  commandOf(answer) { return answer.command; }
+
   // A refusal has no curves, or none with a point: those of the last answer stay.
   show(answer) {
     this.refused = Boolean(answer.error);
-    const second = answer.beside && answer.beside.error ? `${answer.beside.label}: ${answer.beside.error}` : '';
-    this.complain(answer.error || second || (answer.warnings || []).join('; '), answer.hint || (second && answer.beside.hint));
-    if (answer.carried_load) this.offerLoad(answer.carried_load);
-    const drawn = answer.curves && answer.curves.plots.some(plot => plot.series.some(s => s.y.some(y => y !== null)));
+    this.say(answer);
+    const drawn = this.isDrawn(answer), keeps = !drawn && this.answer;
     document.querySelector('.results').classList.toggle('stale', !drawn);
     if (!answer.curves) return;
     document.title = document.querySelector('h1').textContent = answer.title;
-    const keeps = !drawn && this.answer;
-    if (!keeps) soilbin.part('chosen').textContent = answer.in_words + (answer.beside ? `; beside it ${answer.beside.in_words}` : '');
-    soilbin.part('errors').textContent = answer.errors_in_words;
-    soilbin.part('command').textContent = answer.command + (answer.beside ? `\n${answer.beside.command}` : '');
-    for (const [id, target] of [['save-case', 'case.yaml'], ['save-csv', 'curves.csv']]) soilbin.part(id).href = `${target}?${this.state}`;
-    soilbin.part('save-csv-comma').href = `curves.csv?decimal-comma=true&${this.state}`;
-    if (!keeps) this.showReadings(answer.readings, answer.beside);
+    soilbin.part('command').textContent = this.commandOf(answer);
+    for (const [id, target] of this.saves) soilbin.part(id).href = target + this.state;
+    if (!keeps) this.tell(answer);
     for (const {key, value, sd} of answer.numbers) {
       const control = this.numbers.get(key);
       if (!control) continue;
@@ -275,18 +283,6 @@ soilbin.Live = class {
     this.draw();
   }
 
-  // A load that the soil carries, in place of one that it does not: a little below the largest.
-  offerLoad(newton) {
-    const {box, unit} = this.numbers.get('load');
-    const load = Number((0.98 * newton).toPrecision(3));
-    const button = soilbin.make('button', {type: 'button', id: 'carried', textContent: `Set the load to ${soilbin.formatForce(load)}`});
-    button.addEventListener('click', () => {
-      box.value = unit === 'kN' ? load / 1000 : load;
-      box.dispatchEvent(new Event('input'));
-    });
-    soilbin.part('say').append(button);
-  }
-
   showNumber({slider, box, deviation, unit}, value, sd) {
     if ([slider, box, deviation].includes(document.activeElement)) return;
     if (deviation) deviation.value = Number(sd.toPrecision(6));
@@ -295,44 +291,38 @@ soilbin.Live = class {
     slider.setAttribute('aria-valuetext', `${box.value} ${unit}`);
   }
 
-  showReadings(readings, beside) {
-    const {make, part} = soilbin, text = ({value, unit}) => unit ? `${value} ${unit}` : 'none';
-    const tiles = readings.findIndex(reading => reading.name === 'Contact');
-    const second = ({name}) => beside && beside.readings.find(reading => reading.name === name);
-    const tile = reading => {
-      const one = make('div', {}, make('b', {textContent: text(reading)}), make('span', {textContent: reading.name}));
-      one.dataset.said = `${reading.name} ${reading.value} ${reading.unit}`;
-      if (!reading.unit) one.title = reading.value;
-      if (second(reading)) one.append(make('small', {textContent: `${beside.label}: ${text(second(reading))}`}));
-      return one;
-    };
-    part('now').replaceChildren(...readings.slice(0, tiles).map(tile));
-    part('sentences').replaceChildren(...readings.slice(tiles).map(r => make('p', {}, make('b', {textContent: `${r.name} `}), r.value)));
+  // A number in large print; `said` is what is read aloud of it.
+  tile(text, name, said) {
+    const tile = soilbin.make('div', {}, soilbin.make('b', {textContent: text}), soilbin.make('span', {textContent: name}));
+    tile.dataset.said = said;
+    return tile;
   }
+
+  // The panels of a figure that are drawn.
+  plotsOf(place) { return this.answer[place].plots; }
 
   draw() {
-    const wheels = this.answer.wheels.filter(wheel => wheel);
-    soilbin.part('ground').hidden = !wheels.length;
-    soilbin.part('ground').querySelector('.panels').replaceChildren(...wheels.map(soilbin.drawWheel));
-    if (typeof d3 === 'undefined') return;
-    for (const place of soilbin.chartFigures) {
-      const plots = this.answer[place].plots.filter(p => place !== 'budget' || p.series.some(s => s.y.some(y => y !== null)));
-      const charts = this.charts[place], figure = soilbin.part(place);
-      const host = figure.querySelector('.panels');
-      figure.hidden = !plots.length;
-      while (charts.length > plots.length) charts.pop().host.remove();
-      plots.forEach((plot, i) => {
-        const all = {...plot, series: [...this.keptSeries(place, i), ...plot.series]};
-        if (charts[i]) charts[i].replot(all);
-        else charts.push(new soilbin.Chart(host.appendChild(soilbin.make('div')), all, new Set()));
-      });
-      this.showLegend(figure, charts.map(chart => chart.plot));
-    }
+    for (const place of this.chartFigures)
+      this.drawCharts(place, this.charts[place], this.plotsOf(place), i => this.keptSeries(place, i));
   }
 
-  // The kept curves, dashed; the budget piles up and has no room for a second one.
+  // The charts of a figure, as many as there are plots; `kept(i)`: series that are drawn before those of a plot.
+  drawCharts(place, charts, plots, kept = () => []) {
+    const figure = soilbin.part(place), host = figure.querySelector('.panels');
+    if (typeof d3 === 'undefined') return;
+    figure.hidden = !plots.length;
+    while (charts.length > plots.length) charts.pop().host.remove();
+    plots.forEach((plot, i) => {
+      const all = {...plot, series: [...kept(i), ...plot.series]};
+      if (charts[i]) charts[i].replot(all);
+      else charts.push(new soilbin.Chart(host.appendChild(soilbin.make('div')), all, new Set()));
+    });
+    this.showLegend(figure, charts.map(chart => chart.plot));
+  }
+
+  // The kept curves, dashed.
   keptSeries(place, i) {
-    const kept = this.kept && place !== 'budget' ? this.kept[place].plots[i] : null;
+    const kept = this.kept ? this.kept[place].plots[i] : null;
     return kept ? kept.series.filter(s => !s.label.endsWith('this point'))
       .map(s => ({...s, label: s.label ? `kept, ${s.label}` : 'kept', error: [], dash: 1, color: s.color === 'c0' ? 'c3' : 'c4'})) : [];
   }
@@ -356,7 +346,3 @@ soilbin.Live = class {
     this.draw();
   }
 };
-
-fetch('case').then(response => response.json()).then(start => {
-  soilbin.live = new soilbin.Live(start);
-});

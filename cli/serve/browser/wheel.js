@@ -2,19 +2,6 @@
 // stress inside, the load and the pull on its axle. Lengths are true to scale; stresses have a scale of their own.
 'use strict';
 
-soilbin.svgOf = function (name, set, ...inside) {
-  const element = document.createElementNS('http://www.w3.org/2000/svg', name);
-  for (const [key, value] of Object.entries(set)) element.setAttribute(key, value);
-  element.append(...inside);
-  return element;
-};
-
-// 1, 2 or 5 times a power of ten, the next above x.
-soilbin.roundAbove = function (x) {
-  const power = Math.pow(10, Math.floor(Math.log10(x)));
-  return [1, 2, 5, 10].map(step => step * power).find(step => step >= 0.9999 * x);
-};
-
 // `wheel`: an element of `wheels` of /estimate; sizes in SI, angles in radians from the vertical, ahead positive.
 soilbin.drawWheel = function (wheel) {
   const {svgOf, formatNumber, formatForce} = soilbin, width = 460, height = 420, r = wheel.radius, tread = r + wheel.lug_height;
@@ -26,21 +13,13 @@ soilbin.drawWheel = function (wheel) {
     const lower = Math.cos(theta) > 0 ? flat(theta, r) - r : 0;
     return [pixels * (radius + lower) * Math.sin(theta), pixels * (radius + lower) * Math.cos(theta)];
   };
-  const path = points => 'M' + points.map(p => p.map(c => c.toFixed(1)).join(' ')).join('L');
+  const path = soilbin.svgPath;
   const most = Math.max(...wheel.normal, 1e-9), top = soilbin.roundAbove(most), long = 0.5 * tread / top;
   const arc = wheel.theta.map(theta => at(theta, r)), far = 2.5 * width;
   const behind = arc.length ? arc[0][1] : pixels * r, ahead = arc.length ? arc[arc.length - 1][1] : pixels * r;
   const turned = svgOf('g', {transform: `translate(${middle} ${axle}) rotate(${tilt.toFixed(2)})`});
   const add = (name, set, ...inside) => turned.appendChild(svgOf(name, set, ...inside));
-  const arrow = (x1, y1, x2, y2, colour, thick = 1.4) => {
-    const length = Math.hypot(x2 - x1, y2 - y1);
-    if (length < 2) return;
-    const [ux, uy] = [(x2 - x1) / length, (y2 - y1) / length], head = Math.min(7, length);
-    const [bx, by] = [x2 - head * ux, y2 - head * uy];
-    add('line', {class: `s ${colour}`, 'stroke-width': thick, x1: x1.toFixed(1), y1: y1.toFixed(1), x2: bx.toFixed(1), y2: by.toFixed(1)});
-    add('path', {class: `f ${colour}`, d: path([[x2, y2], [bx - 0.45 * head * uy, by + 0.45 * head * ux],
-                                               [bx + 0.45 * head * uy, by - 0.45 * head * ux]]) + 'Z'});
-  };
+  const arrow = (...all) => turned.append(...soilbin.svgArrow(...all));
   const text = (x, y, what, set = {}) => add('text', {class: 'ink', x: x.toFixed(1), y: y.toFixed(1), ...set}, what);
 
   add('path', {class: 'soil', d: path([[-far, behind], ...arc, [far, ahead], [far, far], [-far, far]]) + 'Z'});
