@@ -63,12 +63,6 @@ std::vector<Flag> flags_of(const std::string& query) {
   return flags;
 }
 
-/// "what\n  hint: how" in two.
-std::pair<std::string, std::string> error_and_hint(const std::string& what) {
-  std::vector<std::string> parts = split(what, "\n  hint: ");
-  return {parts.front(), parts.size() > 1 ? parts[1] : ""};
-}
-
 /// Takes the flags of this name out of the query; the last one counts.
 std::optional<std::string> take(std::vector<Flag>& flags, const std::string& key) {
   std::optional<std::string> text;
