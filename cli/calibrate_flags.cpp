@@ -6,9 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "cli/element_test_flags.hpp"
 #include "cli/flag_values.hpp"
-#include "cli/soil_bin.hpp"
 #include "cli/versions.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/csv.hpp"

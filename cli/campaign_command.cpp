@@ -13,7 +13,6 @@
 #include "cli/versions.hpp"
 #include "compare/recorded/campaign_of_records.hpp"
 #include "scenario/atomic_file.hpp"
-#include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 
 namespace soilbin::cli {
@@ -47,8 +46,7 @@ compare::CampaignOptions options_of(const CampaignFlags& asked, const Soil& soil
 }
 
 int campaign(const CampaignFlags& asked, const Session& session) {
-  std::vector<compare::NamedRecord> records;
-  for (const std::string& file : asked.records) records.push_back({file, read_record_with_notes(file)});
+  const std::vector<compare::NamedRecord> records = read_records(asked.records);
   const std::vector<compare::RecordedRun> runs = compare::joined_runs(records);
   const Scenario scenario = scenario_of(records.front(), asked.soil, session.place);
   const compare::CampaignOfRecords made =

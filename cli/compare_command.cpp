@@ -12,7 +12,6 @@
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/versions.hpp"
-#include "compare/sweep/varying.hpp"
 #include "compare/telling/comparison_report.hpp"
 #include "scenario/errors.hpp"
 

@@ -14,7 +14,6 @@
 #include "compare/experiments/grain_drives.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/unit.hpp"
 
 namespace soilbin::cli {
 namespace {

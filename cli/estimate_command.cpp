@@ -3,11 +3,9 @@
 #include <memory>
 
 #include "cli/commands.hpp"
-#include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
-#include "compare/doubts/doubts.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/answer_report.hpp"

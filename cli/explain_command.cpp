@@ -6,7 +6,6 @@
 #include "cli/commands.hpp"
 #include "cli/outputs.hpp"
 #include "cli/question.hpp"
-#include "compare/doubts/doubts.hpp"
 #include "compare/sweep/explanation.hpp"
 #include "compare/telling/answer_report.hpp"
 #include "scenario/errors.hpp"

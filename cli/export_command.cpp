@@ -156,18 +156,13 @@ void add_gazebo(CLI::App& app, Session& session) {
       [=, &session] { session.action = [=, &session] { return export_gazebo(*inputs, *options, session); }; });
 }
 
-/// The flags that the table and what is made of it have in common.
-void add_table_flags(CLI::App& command, TableOptions& options) {
-  options.model.add_to(command);
-  options.tire.add_to(command);
-}
-
 void add_table(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand(
       "table", "forces on a grid of load, slip, yaw and slopes, with a measured error of the interpolation");
   const auto inputs = std::make_shared<Question>(*command);
   const auto options = std::make_shared<TableOptions>();
-  add_table_flags(*command, *options);
+  options->model.add_to(*command);
+  options->tire.add_to(*command);
   add_file(*command, "--header", options->header, "FILE.h", "save one file of C with the table and its look-up");
   add_file(*command, "--hdf5", options->hdf5, "FILE.h5", "save the table as HDF5");
   options->outputs.add_to(*command, {.json = "soilbin-force-table/1, in SI", .csv = "save the table, a line a node"});
@@ -184,7 +179,8 @@ void add_fmi(CLI::App& app, Session& session) {
       "fmi", "a driven wheel as a co-simulation unit of FMI 2.0: its equations of motion over a table of forces");
   const auto inputs = std::make_shared<Question>(*command);
   const auto options = std::make_shared<TableOptions>();
-  add_table_flags(*command, *options);
+  options->model.add_to(*command);
+  options->tire.add_to(*command);
   add_file(*command, "--output", options->fmu, "FILE.fmu", "save the unit, compiled where the machine has 'cc'");
   options->outputs.add_to(*command, {.json = "soilbin-fmu/1, in SI", .csv = "save the table, a line a node"});
   command->footer(

@@ -49,10 +49,8 @@ void add_limits(CLI::App& app, Session& session) {
                                                  std::vector<std::string>{"slip", "longitudinal_incline"});
   const auto options = std::make_shared<LimitsOptions>();
   options->tire.add_to(*command);
-  command
-      ->add_option("--max-slip", options->max_slip,
-                   "slip up to which the wheel may climb, beside the theoretical limit (20 %)")
-      ->type_name("%");
+  add_value(*command, "--max-slip", options->max_slip, "%",
+            "slip up to which the wheel may climb, beside the theoretical limit (20 %)");
   options->outputs.add_to(*command, {.json = "soilbin-limits/1, in SI",
                                      .plot = "draw the largest pull and the slips against the slope",
                                      .csv = "save the table"});

@@ -16,7 +16,6 @@
 #include "scenario/contents.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
-#include "scenario/unit.hpp"
 
 namespace soilbin::cli {
 namespace {

@@ -83,14 +83,10 @@ void add_predict(CLI::App& app, Session& session) {
   CLI::App* command =
       app.add_subcommand("predict", "each run of a measured campaign beside its prediction, nothing fitted");
   const auto options = std::make_shared<PredictOptions>();
-  command->add_option("campaign", options->campaign, "a campaign of the library, or its folder")
-      ->type_name("CAMPAIGN")
+  add_value(*command, "campaign", options->campaign, "CAMPAIGN", "a campaign of the library, or its folder")
       ->required();
-  command
-      ->add_option("--model", options->model,
-                   "a resolved model (soilbin-case/1) in place of the declared soil and effects; or rft, or "
-                   "cone_index")
-      ->type_name("FILE|rft|cone_index");
+  add_value(*command, "--model", options->model, "FILE|rft|cone_index",
+            "a resolved model (soilbin-case/1) in place of the declared soil and effects; or rft, or cone_index");
   options->outputs.add_to(*command, {.json = "soilbin-predict/1, in SI",
                                      .plot = "draw measured and predicted against slip",
                                      .csv = "save each run as measured and as predicted"});

@@ -2,9 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "cli/flag_values.hpp"
 #include "compare/doubts/doubts.hpp"

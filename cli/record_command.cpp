@@ -24,12 +24,6 @@ struct RecordOptions {
   SoilBinFlags expected;  ///< packings and the test of the time step
 };
 
-std::vector<compare::NamedRecord> read_all(const std::vector<std::string>& files) {
-  std::vector<compare::NamedRecord> records;
-  for (const std::string& file : files) records.push_back({file, read_record_with_notes(file)});
-  return records;
-}
-
 std::string names_expected(const RecordOptions& asked, const char* names) {
   return fmt::format("record {}: expected {}\n  hint: see soilbin record --help", asked.what, names);
 }
@@ -57,7 +51,7 @@ void refuse_other_runs(const std::string& out, const compare::Record& whole) {
 int merge(const RecordOptions& asked) {
   if (asked.names.size() < 2) throw InputError(names_expected(asked, "OUT.json SHARD.json..."));
   std::vector<std::string> shards(asked.names.begin() + 1, asked.names.end());
-  const compare::Record whole = compare::merged(read_all(shards));
+  const compare::Record whole = compare::merged(read_records(shards));
   refuse_other_runs(asked.names.front(), whole);
   write_file_atomically(asked.names.front(), compare::record_text(whole));
   fmt::print("wrote {}: {}{} of {}\n", asked.names.front(), compare::counted(whole.runs.size(), "run"),
@@ -69,7 +63,7 @@ int merge(const RecordOptions& asked) {
 
 int show(const RecordOptions& asked) {
   if (asked.names.empty()) throw InputError(names_expected(asked, "RECORD.json..."));
-  for (const compare::NamedRecord& record : read_all(asked.names)) {
+  for (const compare::NamedRecord& record : read_records(asked.names)) {
     fmt::print("{}", compare::in_words(record));
     print_warnings(compare::step_doubts(record.record));
   }
@@ -80,7 +74,7 @@ int missing(const RecordOptions& asked, const Session& session) {
   if (asked.names.size() < 2) throw InputError(names_expected(asked, "STUDY RECORD.json..."));
   const Case question = find_study(session.place, asked.names.front());
   std::vector<compare::Record> records;
-  for (const auto& [file, record] : read_all({asked.names.begin() + 1, asked.names.end()})) {
+  for (const auto& [file, record] : read_records({asked.names.begin() + 1, asked.names.end()})) {
     compare::refuse_other_grains(record, question.scenario, file);
     records.push_back(record);
   }

@@ -244,11 +244,8 @@ int run(RunOptions options, const CLI::App& command, const Session& session) {
 void add_run(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("run", "a study: every model at every condition, as tables, plots and files");
   const auto options = std::make_shared<RunOptions>();
-  command->add_option("study", options->study, "a study of the library, or a case file")
-      ->type_name("STUDY")
-      ->required();
-  command->add_option("--model", options->model, "only this model: bekker_wong, dem, rft or cone_index")
-      ->type_name("NAME");
+  add_value(*command, "study", options->study, "STUDY", "a study of the library, or a case file")->required();
+  add_value(*command, "--model", options->model, "NAME", "only this model: bekker_wong, dem, rft or cone_index");
   options->outputs.add_to(*command, {.json = "the results as JSON, in SI",
                                      .plot = "draw the curves over slip, or over another condition that varies",
                                      .csv = "save the table"});

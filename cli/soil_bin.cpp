@@ -10,7 +10,6 @@
 #include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/versions.hpp"
-#include "cli/workplace.hpp"
 #include "compare/doubts/grain_doubts.hpp"
 #include "dem/bed/relative_density.hpp"
 #include "scenario/errors.hpp"
@@ -372,6 +371,12 @@ compare::Record read_record_with_notes(const fs::path& file) {
   if (const std::string note = compare::unsealed_note(record, file); !note.empty())
     fmt::print(stderr, "note: {}\n", note);
   return record;
+}
+
+std::vector<compare::NamedRecord> read_records(const std::vector<std::string>& files) {
+  std::vector<compare::NamedRecord> records;
+  for (const std::string& file : files) records.push_back({file, read_record_with_notes(file)});
+  return records;
 }
 
 void tell_unsealed(const compare::ExperimentStore& store, const fs::path& file) {

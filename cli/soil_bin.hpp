@@ -117,6 +117,7 @@ compare::StudyGrains grains_of(const SoilBinFlags& flags);
 
 /// compare::read_record; says so where no seal vouches for a run.
 compare::Record read_record_with_notes(const std::filesystem::path& file);
+std::vector<compare::NamedRecord> read_records(const std::vector<std::string>& files);
 /// Tells the experiments of a store that no seal vouches for, where there are any.
 void tell_unsealed(const compare::ExperimentStore& store, const std::filesystem::path& file);
 

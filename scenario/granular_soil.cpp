@@ -27,9 +27,7 @@ double mean_diameter(const GranularSoil& soil) {
 
 void set_sizes(GranularSoil& soil, std::vector<GrainFraction> sizes) {
   soil.sizes = std::move(sizes);
-  if (soil.sizes.empty()) return;
-  const auto [least, most] = std::ranges::minmax(soil.sizes, {}, &GrainFraction::radius);
-  soil.radius_min = least.radius, soil.radius_max = most.radius;
+  fill_in(soil, [](const char*) { return false; });
 }
 
 void scale_sizes(GranularSoil& soil, double factor) {

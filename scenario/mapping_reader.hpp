@@ -195,11 +195,7 @@ void read_into(const YamlNode& mapping, T& into, Reading& reading) {
   ReadInto<T> visitor(mapping, into, reading);
   describe(visitor, std::type_identity<T>{});
   fill_in(into, [&](const char* key) { return mapping.find(key) != nullptr; });
-  if (const std::string wrong = contradiction(into); !wrong.empty()) {
-    const std::string_view mark = "\n  hint: ";
-    const std::size_t hint = wrong.find(mark);
-    reading.refuse(mapping, wrong.substr(0, hint), hint == wrong.npos ? "" : wrong.substr(hint + mark.size()));
-  }
+  if (const std::string wrong = contradiction(into); !wrong.empty()) reading.refuse(mapping, wrong);
 }
 
 /// Reads a T from a mapping that holds its keys and `others` (which the caller reads), and no key beside those.

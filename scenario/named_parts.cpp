@@ -105,13 +105,6 @@ T find_by_name(const std::string& name, const Library& library) {
   throw InputError(not_found<T>(name, library) + "\n  hint: " + names_hint<T>(library));
 }
 
-/// Refuses a node for an error that knows no place.
-[[noreturn]] void refuse_for(const InputError& error, const YamlNode& node, const Reading& reading) {
-  const std::string told = error.what();
-  const std::size_t hint = told.find("\n  hint: ");
-  reading.refuse(node, told.substr(0, hint), hint == std::string::npos ? "" : told.substr(hint + 9));
-}
-
 /// {from: cullinan-sand, density: 1450 kg/m^3}.
 Soil read_bed(const YamlNode& node, const Library& library, const Reading& reading) {
   expect_keys(node, {"from", "density"}, reading);
@@ -122,7 +115,7 @@ Soil read_bed(const YamlNode& node, const Library& library, const Reading& readi
   try {
     set_density(soil, asked);
   } catch (const InputError& error) {
-    refuse_for(error, density, reading);
+    reading.refuse(density, error.what());
   }
   return soil;
 }
@@ -144,7 +137,7 @@ T read_part(const YamlNode& node, const Library& library, const Reading& reading
   try {
     if (auto sized = find_by_size<T>(name, library)) return *std::move(sized);
   } catch (const InputError& error) {
-    refuse_for(error, node, reading);
+    reading.refuse(node, error.what());
   }
   if (looks_like_path(name)) reading.refuse(node, fmt::format("no such {} file", Kind<T>::word));
   reading.refuse(node, not_found<T>(name, library), names_hint<T>(library));

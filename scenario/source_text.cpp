@@ -68,7 +68,14 @@ std::string SourceText::excerpt(std::size_t offset) const {
 }
 
 void SourceText::refuse(std::size_t offset, const std::string& message, const std::string& hint) const {
-  throw InputError(position(offset), message, text.empty() ? "" : excerpt(offset), hint);
+  const auto [what, own_hint] = error_and_hint(message);
+  throw InputError(position(offset), what, text.empty() ? "" : excerpt(offset), hint.empty() ? own_hint : hint);
+}
+
+std::pair<std::string, std::string> error_and_hint(const std::string& told) {
+  constexpr std::string_view mark = "\n  hint: ";
+  const std::size_t hint = told.find(mark);
+  return {told.substr(0, hint), hint == told.npos ? "" : told.substr(hint + mark.size())};
 }
 
 SourceText make_source_text(std::string text, const std::string& file) {

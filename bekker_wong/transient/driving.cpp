@@ -9,17 +9,6 @@
 namespace soilbin::bekker_wong {
 namespace {
 
-enum SumPlace : std::size_t {
-  by_motor,
-  by_height,
-  by_drawbar,
-  by_compaction,
-  by_shear,
-  by_added,
-  by_carcass,
-  by_damping,
-  sums
-};
 enum RootPlace : std::size_t { at_goal, at_stuck, at_lift, at_upper, at_lower, at_bury, at_roll_back, roots };
 
 static_assert(drive_limits::deepest <= max_sinkage_share, "a drive ends before the model does");
@@ -37,20 +26,10 @@ class Ride {
   }
 
   DriveRecord run(int samples, const DriveProgress& progress) {
-    record_.samples.push_back(sample(0.0));
-    bool ended = false;
-    bool ramped = false;
-    for (int i = 1; i <= samples && !ended; ++i) {
-      const double until = drive_.duration * i / samples;
-      if (!ramped && drive_.controller.ramp < until) {  // the mean speed begins to count: a rate that jumps
-        ended = advance(drive_.controller.ramp);
-        integrator_.restart();
-        ramped = true;
-      }
-      if (!ended) ended = advance(until);
-      record_.samples.push_back(sample(record_.end_time));
-      if (progress) progress(record_.end_time, drive_.duration);
-    }
+    go_through(
+        {samples, drive_.duration, drive_.controller.ramp}, integrator_, record_.end_time,
+        [this](const sundials::Stop& stop) { return answer(stop); },
+        [this] { record_.samples.push_back(sample(record_.end_time)); }, progress);
     return std::move(record_);
   }
 
@@ -61,7 +40,7 @@ class Ride {
     p.roots = [this](double t, auto y, auto out) { watch(t, y, out); };
     p.root_count = static_cast<int>(roots);
     p.summands = [this](double t, auto y, auto out) { powers(t, y, out); };
-    p.sum_count = static_cast<int>(sums);
+    p.sum_count = static_cast<int>(work::count);
     p.relative_tolerance = numerics.relative_tolerance;
     p.absolute_tolerances = wheel_.tolerances(numerics.relative_tolerance);
     p.sum_tolerance = numerics.relative_tolerance * wheel_.load() * wheel_.radius();
@@ -83,21 +62,11 @@ class Ride {
   void powers(double t, std::span<const double> y, std::span<double> out) const {
     const Instant now = wheel_.look(t, y, motor_);
     const double alpha = now.place.longitudinal_incline, beta = now.place.transverse_incline;
-    out[by_motor] = now.motor_torque * y[spin];
-    out[by_height] = wheel_.load() * (y[speed] * std::sin(alpha) - y[sinking] * std::cos(alpha) * std::cos(beta));
-    out[by_drawbar] = now.place.drawbar * y[speed];
-    out[by_compaction] = now.compaction, out[by_shear] = now.shear;
-    out[by_added] = now.added, out[by_carcass] = now.carcass, out[by_damping] = now.damping;
-  }
-
-  /// Goes on to `until`; true where the drive ended on the way.
-  bool advance(double until) {
-    while (record_.end_time < until) {
-      const sundials::Stop stop = integrator_.advance(until);
-      record_.end_time = stop.time;
-      if (stop.at_root() && answer(stop)) return true;
-    }
-    return false;
+    out[work::motor] = now.motor_torque * y[spin];
+    out[work::height] = wheel_.load() * (y[speed] * std::sin(alpha) - y[sinking] * std::cos(alpha) * std::cos(beta));
+    out[work::drawbar] = now.place.drawbar * y[speed];
+    out[work::compaction] = now.compaction, out[work::shear] = now.shear;
+    out[work::added] = now.added, out[work::carcass] = now.carcass, out[work::damping] = now.damping;
   }
 
   void note(DriveEvent what) { record_.happenings.push_back({record_.end_time, integrator_.state()[travelled], what}); }
@@ -113,15 +82,9 @@ class Ride {
         ends(at_bury, 1, DriveEnd::buried) || ends(at_roll_back, -1, DriveEnd::rolled_back))
       return true;
     if (stop.signs[at_lift] != 0) note(stop.signs[at_lift] < 0 ? DriveEvent::lifts : DriveEvent::lands);
-    if (stop.signs[at_upper] != 0 || stop.signs[at_lower] != 0) note_limit(stop);
+    const int upper = stop.signs[at_upper], lower = stop.signs[at_lower];
+    if (upper != 0 || lower != 0) note(limit_event(upper, lower, drive_.controller));
     return false;
-  }
-
-  void note_limit(const sundials::Stop& stop) {
-    const bool reached = stop.signs[at_upper] > 0 || stop.signs[at_lower] < 0;
-    note(!reached                   ? DriveEvent::free_again
-         : drive_.controller.torque ? DriveEvent::speed_limit
-                                    : DriveEvent::torque_limit);
   }
 
   DriveSample sample(double t) const {
@@ -134,19 +97,9 @@ class Ride {
     s.contact_slip = now.contact_slip, s.sinkage = y[depth] - now.deflection, s.torque = now.motor_torque;
     s.forward = now.forward, s.drawbar = now.place.drawbar, s.longitudinal_incline = alpha;
     s.lateral = now.left - wheel_.load() * std::cos(alpha) * std::sin(now.place.transverse_incline);
-    s.energy = ledger(y);
+    s.energy = ledger_of(integrator_.sums(), 0.5 * wheel_.mass() * (y[speed] * y[speed] + y[sinking] * y[sinking]) +
+                                                 0.5 * wheel_.inertia() * y[spin] * y[spin]);
     return s;
-  }
-
-  EnergyLedger ledger(const std::vector<double>& y) const {
-    const std::vector<double>& sum = integrator_.sums();
-    EnergyLedger e;
-    e.kinetic = 0.5 * wheel_.mass() * (y[speed] * y[speed] + y[sinking] * y[sinking]) +
-                0.5 * wheel_.inertia() * y[spin] * y[spin];
-    e.motor = sum[by_motor], e.height = sum[by_height], e.drawbar = sum[by_drawbar];
-    e.compaction = sum[by_compaction], e.shear = sum[by_shear];
-    e.added = sum[by_added], e.carcass = sum[by_carcass], e.damping = sum[by_damping];
-    return e;
   }
 
   Drive drive_;
@@ -158,6 +111,46 @@ class Ride {
 };
 
 }  // namespace
+
+EnergyLedger ledger_of(const std::vector<double>& sums, double kinetic) {
+  EnergyLedger e;
+  e.kinetic = kinetic;
+  e.motor = sums[work::motor], e.height = sums[work::height], e.drawbar = sums[work::drawbar];
+  e.compaction = sums[work::compaction], e.shear = sums[work::shear], e.added = sums[work::added];
+  e.carcass = sums[work::carcass], e.damping = sums[work::damping];
+  return e;
+}
+
+DriveEvent limit_event(int upper, int lower, const Controller& controller) {
+  if (upper <= 0 && lower >= 0) return DriveEvent::free_again;
+  return controller.torque ? DriveEvent::speed_limit : DriveEvent::torque_limit;
+}
+
+void go_through(const DriveParts& parts, sundials::Integrator& integrator, double& time,
+                const std::function<bool(const sundials::Stop&)>& ends, const std::function<void()>& sample,
+                const DriveProgress& progress) {
+  const auto ends_before = [&](double until) {
+    while (time < until) {
+      const sundials::Stop stop = integrator.advance(until);
+      time = stop.time;
+      if (stop.at_root() && ends(stop)) return true;
+    }
+    return false;
+  };
+  sample();
+  bool ended = false, ramped = false;
+  for (int i = 1; i <= parts.samples && !ended; ++i) {
+    const double until = parts.duration * i / parts.samples;
+    if (!ramped && parts.ramp < until) {
+      ended = ends_before(parts.ramp);
+      integrator.restart();
+      ramped = true;
+    }
+    if (!ended) ended = ends_before(until);
+    sample();
+    if (progress) progress(time, parts.duration);
+  }
+}
 
 DriveRecord drive_wheel(const Scenario& scenario, const Drive& drive, int samples, const DriveNumerics& numerics,
                         const DriveProgress& progress) {

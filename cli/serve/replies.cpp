@@ -17,6 +17,7 @@
 #include "compare/telling/answer_report.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/source_text.hpp"
 
 namespace soilbin::cli {
 namespace {

@@ -23,11 +23,6 @@ constexpr const char* icon =
 
 }  // namespace
 
-std::pair<std::string, std::string> error_and_hint(const std::string& what) {
-  std::vector<std::string> parts = split(what, "\n  hint: ");
-  return {parts.front(), parts.size() > 1 ? parts[1] : ""};
-}
-
 Reply json_reply(const nlohmann::ordered_json& document, unsigned status) {
   return {status, "application/json", document.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)};
 }

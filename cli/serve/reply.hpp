@@ -27,9 +27,6 @@ struct GivenUp : std::runtime_error {
   GivenUp() : std::runtime_error("nobody waits for this answer") {}
 };
 
-/// "what\n  hint: how" in two.
-std::pair<std::string, std::string> error_and_hint(const std::string& what);
-
 /// {"error", "hint"} of an error's text, whose hint stands on a line of its own ("\n  hint: ..."); "" for none.
 Reply refusal(unsigned status, const std::string& what);
 

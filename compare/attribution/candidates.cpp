@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <stdexcept>
 
-#include "compare/attribution/unnamed.hpp"
 #include "compare/fit/condition_functions.hpp"
 #include "compare/fit/fitted_model.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "compare/fit/evidence.hpp"
 #include "compare/fit/thresholds.hpp"

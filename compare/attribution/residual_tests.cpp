@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <random>
 
 #include "bekker_wong/gsl.hpp"

@@ -5,7 +5,6 @@
 #include <map>
 #include <tuple>
 
-#include "compare/attribution/candidates.hpp"
 #include "compare/attribution/choice.hpp"
 #include "compare/attribution/learned_effect.hpp"
 #include "compare/attribution/predictive_gain.hpp"

@@ -7,7 +7,6 @@
 
 #include "bekker_wong/gsl.hpp"
 #include "compare/bevameter/plate_tests.hpp"
-#include "compare/report/number_text.hpp"
 #include "scenario/beds.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/errors.hpp"

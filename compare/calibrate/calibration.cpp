@@ -5,11 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
-#include "compare/calibrate/experiment_store.hpp"
 #include "compare/design/factor.hpp"
-#include "compare/design/gaussian_process.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

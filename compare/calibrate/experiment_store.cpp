@@ -11,7 +11,6 @@
 #include "compare/report/sealed_json.hpp"
 #include "scenario/checksum.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/source_text.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -1,9 +1,6 @@
 #include "compare/design/factor.hpp"
 
 #include <cmath>
-#include <numeric>
-#include <random>
-#include <vector>
 
 namespace soilbin::compare {
 

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 #include <random>
-#include <stdexcept>
 
 #include "bekker_wong/gsl.hpp"
 

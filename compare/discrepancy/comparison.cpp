@@ -15,7 +15,6 @@
 #include "compare/fit/factorizations.hpp"
 #include "compare/fit/wheel_predictor.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 #include "scenario/fitted_errors.hpp"
@@ -28,9 +27,7 @@ std::vector<Tally> tallies_of(const std::vector<Difference>& rows) {
   std::vector<Tally> all;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Difference& d = rows[i];
-    if (all.empty() || all.back().side != d.side || all.back().reference != d.reference ||
-        all.back().channel != d.channel)
-      all.push_back({.side = d.side, .reference = d.reference, .channel = d.channel, .worst = i});
+    if (all.empty() || !d.is_of(all.back())) all.emplace_back(Tally{d}).worst = i;
     Tally& t = all.back();
     ++t.values;
     t.differ += d.finding == DifferenceFinding::difference;

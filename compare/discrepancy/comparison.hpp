@@ -15,9 +15,8 @@
 
 namespace soilbin::compare {
 
-/// A pair of sides and one channel over all conditions.
-struct Tally {
-  std::size_t side = 0, reference = 0, channel = 0;
+/// Over all conditions.
+struct Tally : ComparedChannel {
   std::size_t values = 0, differ = 0, in_scatter = 0, in_errors = 0, unknown = 0;
   double bias = 0.0;          ///< mean of value less reference [SI]
   double rms = 0.0;           ///< root mean square [SI]

@@ -30,11 +30,19 @@ double counting_errors(double freedom);
 /// both are known.
 double joined_freedom(double a, double freedom_a, double b, double freedom_b);
 
-/// One side against another, one channel, one condition [SI].
-struct Difference {
+/// What is compared: one side against another, in one channel.
+struct ComparedChannel {
   std::size_t side = 0, reference = 0;  ///< of Comparison::sides
-  std::size_t condition = 0;            ///< of the study
   std::size_t channel = 0;              ///< of channel_views
+
+  bool is_of(const ComparedChannel& other) const {
+    return side == other.side && reference == other.reference && channel == other.channel;
+  }
+};
+
+/// At one condition [SI].
+struct Difference : ComparedChannel {
+  std::size_t condition = 0;  ///< of the study
   Estimate value, reference_value;
   double scatter = 0.0;     ///< of one run of the reference, or of the side where that one scatters more
   double difference = 0.0;  ///< value less reference value

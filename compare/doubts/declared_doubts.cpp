@@ -2,7 +2,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/contact_stages.hpp"
 #include "bekker_wong/model.hpp"
 #include "compare/doubts/doubts.hpp"

@@ -10,7 +10,6 @@
 
 #include "bekker_wong/closed_forms.hpp"
 #include "compare/report/number_text.hpp"
-#include "scenario/errors.hpp"
 
 namespace soilbin::compare {
 

@@ -8,7 +8,6 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "scenario/drive_way.hpp"
-#include "scenario/errors.hpp"
 
 namespace soilbin::compare {
 namespace {

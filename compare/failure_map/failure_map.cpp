@@ -6,8 +6,6 @@
 #include <bit>
 #include <cmath>
 
-#include "compare/design/factor.hpp"
-#include "compare/design/gaussian_process.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

@@ -1,6 +1,5 @@
 #include "compare/fit/fitted_model.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

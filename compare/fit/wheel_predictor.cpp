@@ -7,7 +7,6 @@
 
 #include "bekker_wong/contact_stages.hpp"
 #include "bekker_wong/model.hpp"
-#include "bekker_wong/rolling_wheel.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/fitted_errors.hpp"
 #include "scenario/soil_parameters.hpp"

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "compare/attribution/candidates.hpp"
-#include "compare/attribution/choice.hpp"
 #include "compare/fit/thresholds.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "scenario/errors.hpp"

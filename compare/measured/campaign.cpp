@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <map>
 
 #include "compare/measured/run_columns.hpp"
 #include "compare/measured/time_log.hpp"

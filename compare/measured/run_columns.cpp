@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/measured/campaign.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "scenario/mapping_writer.hpp"
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "compare/design/factor.hpp"
-#include "compare/measured/campaign.hpp"
 #include "compare/measured/run_columns.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"

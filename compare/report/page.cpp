@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "compare/report/json_fields.hpp"
-#include "compare/report/plot.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
 

@@ -6,7 +6,6 @@
 
 #include "compare/report/json_fields.hpp"
 #include "scenario/checksum.hpp"
-#include "scenario/errors.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
-#include <limits>
 #include <random>
-#include <set>
 
 #include "compare/fit/factorizations.hpp"
 #include "compare/measured/campaign.hpp"

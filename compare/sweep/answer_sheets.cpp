@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "compare/report/number_text.hpp"
-#include "compare/sweep/answers.hpp"
 #include "scenario/estimate.hpp"
 #include "scenario/unit.hpp"
 

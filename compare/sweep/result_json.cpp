@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "compare/measured/campaign.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/mapping_writer.hpp"

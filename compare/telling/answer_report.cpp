@@ -14,8 +14,6 @@
 #include "compare/report/number_text.hpp"
 #include "compare/report/table.hpp"
 #include "compare/sweep/answer_sheets.hpp"
-#include "compare/sweep/answers.hpp"
-#include "compare/sweep/explanation.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/nearest_word.hpp"
@@ -114,7 +112,7 @@ std::vector<std::string> notes_on(const std::vector<RecordedRun>& runs, const st
   }
   const std::string low = fmt::format("{:.3f}", densest), high = fmt::format("{:.3f}", loosest);
   if (loosest > 0) notes.push_back("bed: void ratio " + (low == high ? low : low + " to " + high));
-  notes.push_back(fmt::format("dem: {} run{}, {:.0f} s in all", runs.size(), runs.size() == 1 ? "" : "s", seconds));
+  notes.push_back(fmt::format("dem: {}, {:.0f} s in all", counted(runs.size(), "run"), seconds));
   if (!density.empty()) notes.push_back(density);
   return notes;
 }

@@ -75,10 +75,10 @@ std::vector<std::string> decision_sentences(const Decision& decision) {
         fmt::format("In the soil bin no candidate had a result at all {} setpoints of {}: the likeliest is kept. {}.",
                     decision.setpoints.size(), decision.campaign, failure_of(decision.trials.front()))};
   std::vector<std::string> said;
-  said.push_back(fmt::format("In the soil bin {} is nearest to {}: {} of the load off, over {} setpoint{}.",
+  said.push_back(fmt::format("In the soil bin {} is nearest to {}: {} of the load off, over {}.",
                              candidate_name(decision.nearest), decision.campaign,
-                             error_text(*decision.trials[decision.nearest].error), decision.setpoints.size(),
-                             decision.setpoints.size() == 1 ? "" : "s"));
+                             error_text(*decision.trials[decision.nearest].error),
+                             counted(decision.setpoints.size(), "setpoint")));
   if (decision.tied() > 1)
     said.push_back(fmt::format(
         "It does not differ from {} by two standard errors: {}, the likeliest of these on the targets, is chosen.",

@@ -7,8 +7,8 @@
 #include <array>
 #include <memory>
 
-#include "compare/discrepancy/comparison.hpp"
 #include "compare/doubts/doubts.hpp"
+#include "compare/report/number_text.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/loop_report.hpp"
@@ -53,8 +53,7 @@ std::vector<std::pair<std::string, std::string>> evidence_of(const Comparison& c
   std::vector<std::pair<std::string, std::string>> links;
   if (!clause.rows.empty()) {
     const Difference& first = comparison.differences[clause.rows.front()];
-    links.emplace_back(rows_anchor({.side = first.side, .reference = first.reference, .channel = first.channel}),
-                       fmt::format("{} row{}", clause.rows.size(), clause.rows.size() == 1 ? "" : "s"));
+    links.emplace_back(rows_anchor(first), counted(clause.rows.size(), "row"));
   }
   for (const ClauseEvidence evidence : clause.evidence) {
     links.emplace_back(std::string(anchor_of(evidence)), std::string(word(evidence)));
@@ -110,11 +109,7 @@ void add_curves(Report& report, const Comparison& comparison) {
                            "hide each other, point at a name in the legend to see its own.",
                            "overview")}};
     });
-  report.parts.push_back({.content = std::move(curves),
-                          .told = Told::to_look_at,
-                          .section = "Curves",
-                          .anchor = "curves",
-                          .heading = ReportPart::Heading::place});
+  report.add("Curves", std::move(curves), Told::to_look_at, "curves", ReportPart::Heading::place);
 }
 
 /// The answer and the grains' limits in a sentence or two, the curves, what the soil explains of it, then all numbers.
@@ -184,10 +179,7 @@ void add_causes(Report& report, const Comparison& comparison) {
           {Figure([&comparison, c] { return contact_sheet(comparison, c); },
                   "Entry and exit angles, and the sinkage that slip adds.", fmt::format("contact-{}", c + 1))}};
     });
-  report.parts.push_back({.content = std::move(contacts),
-                          .told = Told::to_look_at,
-                          .section = "Contact and sinkage",
-                          .heading = ReportPart::Heading::subsection});
+  report.add("Contact and sinkage", std::move(contacts), Told::to_look_at, "", ReportPart::Heading::subsection);
   if (Table table = sinkage_table(comparison); !table.rows.empty()) report.add(std::move(table), Told::on_pages);
 }
 

@@ -58,6 +58,8 @@ struct Clause {
 /// What every sentence, table and figure calls a side: "analytic wheel with slip sinkage". Data keep its label.
 std::string name_of(const Side& side);
 
+/// "analytic wheel less grains".
+std::string less_in_words(const Comparison& comparison, const ComparedChannel& of);
 /// "grains has no result at 1 of 4 conditions (...)".
 std::string in_words(const Comparison& comparison, const NotCompared& gap);
 
@@ -113,7 +115,7 @@ Table sinkage_table(const Comparison& comparison);
 Table joint_table(const Comparison& comparison);
 
 /// The anchor of a page's rows of one pair and channel.
-std::string rows_anchor(const Tally& tally);
+std::string rows_anchor(const ComparedChannel& of);
 
 // The figures of a comparison: curves of all sides, heat maps of differences, stresses, contact angles, sinkage,
 // budget.

@@ -247,15 +247,14 @@ HeatMap heat_map_of(const Comparison& comparison, const Tally& tally) {
   HeatMap map;
   map.title = fmt::format("{} [% of {}]", capital(std::string(channel_views[tally.channel].title)),
                           scale_in_words(channel_views[tally.channel]));
-  map.subtitle =
-      fmt::format("{} less {}", name_of(comparison.sides[tally.side]), name_of(comparison.sides[tally.reference]));
+  map.subtitle = less_in_words(comparison, tally);
   map.x_title = "slip [%]";
   map.y_title = curves.varying.empty() ? "curve" : curves.varying;
   for (const double slip : slips) map.x.push_back(fmt::format("{:.4g}", 100 * slip));
   for (const std::string& label : curves.labels) map.y.push_back(label.empty() ? "all" : label);
   map.cells.assign(curves.labels.size(), std::vector<HeatCell>(slips.size(), HeatCell{not_a_number, "", "", true}));
   for (const Difference& d : comparison.differences) {
-    if (d.side != tally.side || d.reference != tally.reference || d.channel != tally.channel) continue;
+    if (!d.is_of(tally)) continue;
     const auto column =
         std::ranges::find_if(slips, [&](double s) { return std::abs(s - conditions[d.condition].slip) < 1e-9; }) -
         slips.begin();

@@ -29,7 +29,9 @@ std::string rest_cell(const BudgetRest& rest) {
 
 }  // namespace
 
-std::string rows_anchor(const Tally& t) { return fmt::format("rows-{}-{}-{}", t.side, t.reference, t.channel); }
+std::string rows_anchor(const ComparedChannel& of) {
+  return fmt::format("rows-{}-{}-{}", of.side, of.reference, of.channel);
+}
 
 Table tally_table(const Comparison& comparison) {
   constexpr std::size_t more_than_a_channel = 2;
@@ -40,8 +42,7 @@ Table tally_table(const Comparison& comparison) {
       {true, false, false, false, true, true}};
   for (const Tally* t : widest_first(comparison)) {
     const Difference& worst = comparison.differences[t->worst];
-    const std::string pair =
-        fmt::format("{} less {}", name_of(comparison.sides[t->side]), name_of(comparison.sides[t->reference]));
+    const std::string pair = less_in_words(comparison, *t);
     if (!several) table.header[3] = "mean of " + pair;
     const Tone tone = t->unknown == t->values     ? Tone::none
                       : t->rms <= t->expected_rms ? Tone::good
@@ -75,10 +76,10 @@ std::pair<std::string, double> column_unit(const Comparison& comparison, std::si
 }
 
 /// "+0.35 *": a side less the baseline; "-" where either has no result.
-std::string change_cell(const Comparison& comparison, const Tally& asked, std::size_t condition, double per_si) {
+std::string change_cell(const Comparison& comparison, const ComparedChannel& asked, std::size_t condition,
+                        double per_si) {
   for (const Difference& d : comparison.differences)
-    if (d.side == asked.side && d.reference == asked.reference && d.channel == asked.channel &&
-        d.condition == condition) {
+    if (d.is_of(asked) && d.condition == condition) {
       const double change = d.difference * per_si;
       return fmt::format("{}{}{}", change > 0 ? "+" : "", number(change, 3),
                          d.finding == DifferenceFinding::difference ? " *" : "");
@@ -105,8 +106,7 @@ Table matrix_table(const Comparison& comparison, std::size_t baseline, const std
       const SidePoint& point = sides[baseline].points[i];
       row.push_back(point.result && point.has[c] ? number((*point.result).*channel_views[c].predicted, per_si) : "-");
       for (std::size_t s = 0; s < sides.size(); ++s)
-        if (s != baseline)
-          row.push_back(change_cell(comparison, {.side = s, .reference = baseline, .channel = c}, i, per_si));
+        if (s != baseline) row.push_back(change_cell(comparison, {s, baseline, c}, i, per_si));
     }
     table.add(std::move(row));
   }
@@ -139,7 +139,7 @@ Table rows_table(const Comparison& comparison, const Tally& tally) {
                "difference", "scatter of a run", "share [%]", "in sigma", "finding"},
               {true, false, false, false, false, false, false, true}};
   for (const Difference& d : comparison.differences) {
-    if (d.side != tally.side || d.reference != tally.reference || d.channel != tally.channel) continue;
+    if (!d.is_of(tally)) continue;
     table.add({in_words(comparison.question.study.conditions[d.condition]), number(d.value, channel.per_si),
                number(d.reference_value, channel.per_si), number(Estimate{d.difference, d.std_error}, channel.per_si),
                number(d.scatter * channel.per_si), signed_number(100 * d.share, 2), signed_number(d.sigma, 1),

@@ -24,10 +24,8 @@ constexpr double chance_level = 0.05;  // share of rows beyond counting_errors w
 
 std::vector<std::size_t> rows_of(const Comparison& comparison, const Tally& tally) {
   std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < comparison.differences.size(); ++i) {
-    const Difference& d = comparison.differences[i];
-    if (d.side == tally.side && d.reference == tally.reference && d.channel == tally.channel) rows.push_back(i);
-  }
+  for (std::size_t i = 0; i < comparison.differences.size(); ++i)
+    if (comparison.differences[i].is_of(tally)) rows.push_back(i);
   return rows;
 }
 
@@ -42,9 +40,8 @@ std::string counts(const Tally& t) {
 
 Clause tally_clause(const Comparison& comparison, const Tally& t) {
   const Difference& worst = comparison.differences[t.worst];
-  const std::string side = name_of(comparison.sides[t.side]), reference = name_of(comparison.sides[t.reference]);
   Clause clause{std::string(channel_views[t.channel].title), "", {}, rows_of(comparison, t)};
-  clause.text = fmt::format("{} less {}: {}", side, reference, counts(t));
+  clause.text = fmt::format("{}: {}", less_in_words(comparison, t), counts(t));
   if (tires_differ(comparison, t.side, t.reference)) clause.text += std::string(unlike_tires) + " ";
   const std::string expected =
       t.expected_rms > 0.0 ? fmt::format("; expected from uncertainty: {}", in_unit(t.channel, t.expected_rms)) : "";
@@ -261,6 +258,10 @@ const Difference* widest_difference(const Comparison& comparison) {
 }
 
 std::string name_of(const Side& side) { return model_in_words(side.label); }
+
+std::string less_in_words(const Comparison& comparison, const ComparedChannel& of) {
+  return name_of(comparison.sides[of.side]) + " less " + name_of(comparison.sides[of.reference]);
+}
 
 std::string in_words(const Comparison& comparison, const NotCompared& gap) {
   const std::string side = name_of(comparison.sides[gap.side]);

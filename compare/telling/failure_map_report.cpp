@@ -503,22 +503,15 @@ Report report_on(const FailureMapResult& result, const FailureMapAbout& about) {
   std::vector<std::string> first = {in_short(result)};
   if (!grains.empty()) first.push_back(grains);
   report.add(Sentences(first), Told::on_pages);
-  report.parts.push_back(
-      {.content = Html{sliding_map_html(
-           sliding_map_of(result),
-           fmt::format("Drawbar pull, {}, in per cent of the load, as the map has it; loads across, angles up. Blue: "
-                       "{} is too low; orange: too high. Bold: the models differ by more than the tolerance; faint: "
-                       "they agree; with a question mark: not decided.",
-                       less_in_words(result.asked), pull_of(result.asked.of)))},
-       .told = Told::on_pages,
-       .section = "The map",
-       .anchor = "map",
-       .heading = ReportPart::Heading::place});
-  report.parts.push_back({.content = Sentences(trust_in_words(result, "")),
-                          .told = Told::on_pages,
-                          .section = "The answer in full",
-                          .anchor = "answer",
-                          .heading = ReportPart::Heading::place});
+  const std::string below_map = fmt::format(
+      "Drawbar pull, {}, in per cent of the load, as the map has it; loads across, angles up. Blue: {} is too low; "
+      "orange: too high. Bold: the models differ by more than the tolerance; faint: they agree; with a question mark: "
+      "not decided.",
+      less_in_words(result.asked), pull_of(result.asked.of));
+  report.add("The map", Html{sliding_map_html(sliding_map_of(result), below_map)}, Told::on_pages, "map",
+             ReportPart::Heading::place);
+  report.add("The answer in full", Sentences(trust_in_words(result, "")), Told::on_pages, "answer",
+             ReportPart::Heading::place);
   report.add(Sentences(trust_in_words(result, grains)), Told::in_text);
   report.add(Items{details(result)});
   report.add(WarningsHere());

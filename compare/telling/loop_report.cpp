@@ -10,9 +10,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "bekker_wong/effects/titles.hpp"
 #include "bekker_wong/learned.hpp"

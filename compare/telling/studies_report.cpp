@@ -13,7 +13,6 @@
 #include "compare/report/number_text.hpp"
 #include "compare/report/shell_words.hpp"
 #include "compare/sweep/answer_sheets.hpp"
-#include "compare/sweep/answers.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/reports.hpp"

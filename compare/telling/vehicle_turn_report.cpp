@@ -28,9 +28,7 @@ std::string turn_end_in_words(const TurnAnswers& answers, const TurnEnd& end) {
   return failure_in_words(answers.wheels, end.failure);
 }
 
-bool is_steered_vehicle(const VehicleCase& question) {
-  return std::ranges::any_of(question.axles, [](const VehicleAxle& axle) { return axle.steered == YesNo::yes; });
-}
+bool is_steered_vehicle(const VehicleCase& question) { return std::ranges::any_of(question.axles, is_steered); }
 
 std::string radius_text(double radius, double error = 0.0) {
   return number({std::abs(radius), told_error(error)}) + " m";

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <numeric>
 #include <optional>
 
 #include "compare/fit/thresholds.hpp"
-#include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
 
 namespace soilbin::compare {

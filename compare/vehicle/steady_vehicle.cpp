@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include "bekker_wong/gsl.hpp"
 #include "bekker_wong/gsl_systems.hpp"
 #include "scenario/soil.hpp"
-#include "scenario/yawed_frames.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -82,7 +80,7 @@ SteadyVehicles::Turning SteadyVehicles::turn(const VehicleCondition& at, const M
     const double forward = 1.0 - curvature * (dx * s + dy * c), left = curvature * (dx * c - dy * s);  // over the speed
     all.speeds.push_back(at.speed * std::hypot(forward, left));
     all.headings.push_back(std::atan2(left, forward));
-    const bool steered = vehicle_.axles[wheel.axle].steered == YesNo::yes;
+    const bool steered = is_steered(vehicle_.axles[wheel.axle]);
     all.steer.push_back(!steered           ? 0.0
                         : curvature == 0.0 ? vehicle.steering
                                            : std::atan2(steered_curvature * (wheel.place.x - m.middle),
@@ -117,18 +115,17 @@ SteadyVehicles::Modes SteadyVehicles::modes(const VehicleCondition& at) const {
   constexpr double in_one_place = 1e-9;
   m.pitches = m.length > in_one_place, m.rolls = m.width > in_one_place;
   const bool lopsided = vehicle_.centre_of_gravity.y != m.y0 || vehicle_.hitch.at.y != 0.0;
-  const auto steered = [](const VehicleAxle& axle) { return axle.steered == YesNo::yes; };
   m.crabs = m.pitches && (at.cross_slope != 0.0 || (m.rolls && lopsided));
-  m.steers = m.crabs && std::ranges::any_of(vehicle_.axles, steered);
+  m.steers = m.crabs && std::ranges::any_of(vehicle_.axles, is_steered);
   if (at.curvature == 0.0) return m;
   m.crabs = m.steers = true;
-  const bool all_steered = std::ranges::all_of(vehicle_.axles, steered);
+  const bool all_steered = std::ranges::all_of(vehicle_.axles, is_steered);
   double held = 0.0;
   for (const VehicleAxle& axle : vehicle_.axles)
-    if (all_steered || !steered(axle)) m.middle += axle.x, held += 1.0;
+    if (all_steered || !is_steered(axle)) m.middle += axle.x, held += 1.0;
   m.middle /= held;
   for (const VehicleAxle& axle : vehicle_.axles)
-    if (steered(axle) && std::abs(axle.x - m.middle) > std::abs(m.lever)) m.lever = axle.x - m.middle;
+    if (is_steered(axle) && std::abs(axle.x - m.middle) > std::abs(m.lever)) m.lever = axle.x - m.middle;
   for (const VehicleWheel& wheel : wheels_)
     m.half_track += std::abs(wheel.place.y - m.y0) / static_cast<double>(wheels_.size());
   return m;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "bekker_wong/presumption.hpp"
 #include "scenario/effect_choices.hpp"

@@ -58,6 +58,8 @@ struct VehicleAxle {
   Tire tire{};
 };
 
+inline bool is_steered(const VehicleAxle& axle) { return axle.steered == YesNo::yes; }
+
 /// Where what is pulled is hooked on.
 struct VehicleHitch {
   VehiclePoint at{};

@@ -17,6 +17,7 @@ namespace {
 using bekker_wong::DrivenWheel;
 using bekker_wong::Instant;
 namespace wheel_state = bekker_wong;  // StatePlace of one wheel
+namespace work = bekker_wong::work;
 
 constexpr double heard_time = 0.05;    // [s] in which what effects read of a load follows that load: chosen
 constexpr double turned_about = -0.9;  // rolled beyond which a wheel is the mirrored one: three lengths of rolling-in
@@ -28,17 +29,6 @@ constexpr double roll_back = 0.5;      // way behind the start over the wheelbas
 enum VehiclePlace : std::size_t { at_x, at_speed, at_mean_speed, first_rotor };
 enum RotorPlace : std::size_t { rotor_spin, rotor_error, rotor_places };
 enum AxlePlace : std::size_t { axle_depth, axle_sinking, axle_rolled, axle_heard, axle_nodes };
-enum VehicleSum : std::size_t {
-  sum_motor,
-  sum_height,
-  sum_drawbar,
-  sum_compaction,
-  sum_shear,
-  sum_added,
-  sum_carcass,
-  sum_damping,
-  vehicle_sums
-};
 
 /// An axle with one of its wheels.
 struct RollingAxle {
@@ -74,6 +64,13 @@ struct Look {
   Place place;
   double acceleration = 0.0;
   double standing = 0.0;  ///< how far what the axles carry acts from the nearer outer axle, inward [m]
+};
+
+/// How it stands on its axles.
+struct Stance {
+  double nose_down = 0.0;  ///< [rad]
+  double normal = 0.0;     ///< that the axles carry together, normal to the ground [N]
+  double pitch = 0.0;      ///< moment of all else about x = 0 on the ground, nose down [N m]
 };
 
 Controller controller_of(const VehicleCase& question) {
@@ -118,20 +115,10 @@ class VehicleRide {
   }
 
   VehicleDriveRecord run(int samples, const bekker_wong::DriveProgress& progress) {
-    record_.samples.push_back(sample(0.0));
-    const double duration = question_.drive.duration;
-    bool ended = false, ramped = false;
-    for (int i = 1; i <= samples && !ended; ++i) {
-      const double until = duration * i / samples;
-      if (!ramped && ramp_ < until) {  // the mean speed begins to count: a rate that jumps
-        ended = advance(ramp_);
-        integrator_->restart();
-        ramped = true;
-      }
-      if (!ended) ended = advance(until);
-      record_.samples.push_back(sample(record_.end_time));
-      if (progress) progress(record_.end_time, duration);
-    }
+    bekker_wong::go_through(
+        {samples, question_.drive.duration, ramp_}, *integrator_, record_.end_time,
+        [this](const sundials::Stop& stop) { return answer(stop); },
+        [this] { record_.samples.push_back(sample(record_.end_time)); }, progress);
     tell_what_gave_out();
     return std::move(record_);
   }
@@ -142,6 +129,7 @@ class VehicleRide {
   std::vector<CarryingAxle> carrying(double nose_down) const;
   void start();
   double held(double displacement);
+  void add_motors(double displacement);
   sundials::Problem problem(const bekker_wong::DriveNumerics& numerics);
 
   std::size_t nodes_of(const RollingAxle& axle) const { return axle.in_soil.state_size() - wheel_state::first_node; }
@@ -150,6 +138,16 @@ class VehicleRide {
     return axle.gear * y[rotor_at(axle.rotor) + rotor_spin];
   }
   Place place_of(const RollingAxle& axle, double x, const Place& of_all) const;
+  /// A wheel of the axle at the start, under a load on level ground [N]; a driven one pushed back so far [m].
+  Instant resting(const RollingAxle& axle, double load, double displacement, std::vector<double>& state) const {
+    return axle.in_soil.rest(place_of(axle, 0.0, way_.at(0.0)), load, rotors_[axle.rotor].driven ? displacement : 0.0,
+                             state);
+  }
+  /// The drawbar's force along the ground, and what it presses the vehicle down with [N].
+  double pull_along(const Place& place) const { return place.drawbar * std::cos(question_.hitch.angle); }
+  double pull_down(const Place& place) const { return place.drawbar * std::sin(question_.hitch.angle); }
+  Stance stance_of(const Place& place, const std::vector<VehiclePoint>& sunk, const std::vector<Instant>& soil,
+                   const std::vector<double>& spin_rates, double acceleration) const;
   std::vector<double> wheel_state_of(std::size_t axle, std::span<const double> y) const;
   Instant touch(std::size_t axle, const Place& place, std::span<const double> y, std::span<double> node_rate) const;
   /// `rates`: of the whole state; its axles' nodes get theirs.
@@ -157,13 +155,12 @@ class VehicleRide {
   void rate(double t, std::span<const double> y, std::span<double> out) const;
   void watch(double t, std::span<const double> y, std::span<double> out) const;
   void powers(double t, std::span<const double> y, std::span<double> out) const;
-  bool advance(double until);
   bool answer(const sundials::Stop& stop);
   void note(DriveEvent what, std::size_t axle) {
     record_.happenings.push_back({record_.end_time, integrator_->state()[at_x], what, axle});
   }
   VehicleDriveSample sample(double t) const;
-  bekker_wong::EnergyLedger ledger(std::span<const double> y) const;
+  double in_motion(std::span<const double> y) const;
   double line_rim_speed(std::span<const double> y) const;
   void tell_what_gave_out();
 
@@ -300,16 +297,15 @@ Place VehicleRide::place_of(const RollingAxle& axle, double x, const Place& of_a
   return place;
 }
 
-/// Lays the start's depths, shear and loads with the driven wheels pushed back by `displacement` [m], and gives each
-/// motor the torque that this takes; what the soil then holds too much [N].
+/// Lays the start's depths, shear and loads with the driven wheels pushed back by `displacement` [m]; what the soil
+/// then holds too much [N].
 double VehicleRide::held(double displacement) {
   constexpr int most_rounds = 100;
   constexpr double settled = 1e-13;
   const Place place = way_.at(0.0);
-  const double up = std::cos(place.longitudinal_incline), along = std::sin(place.longitudinal_incline);
-  const double pull_along = place.drawbar * std::cos(question_.hitch.angle),
-               pull_down = place.drawbar * std::sin(question_.hitch.angle);
-  double nose_down = 0.0, forward = 0.0;
+  const double up = std::cos(place.longitudinal_incline);
+  const std::vector<double> at_rest(rotors_.size(), 0.0);
+  double forward = 0.0;
   std::vector<double> loads = start_loads_;
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<Instant> soil;
@@ -319,9 +315,8 @@ double VehicleRide::held(double displacement) {
       const RollingAxle& axle = axles_[i];
       std::vector<double> state = wheel_state_of(i, start_);
       const double load = std::max(loads[i] / axle.count, least_heard * weight_);
-      const bool holds = rotors_[axle.rotor].driven;
       try {
-        soil.push_back(axle.in_soil.rest(place_of(axle, 0.0, place), load / up, holds ? displacement : 0.0, state));
+        soil.push_back(resting(axle, load / up, displacement, state));
       } catch (const NoSolution& error) {
         throw VehicleGaveOut(GaveOut::wheel, axle.wheel, error.what());
       }
@@ -332,16 +327,8 @@ double VehicleRide::held(double displacement) {
       for (double k = 0; k < axle.count; ++k)
         sunk.push_back({question_.axles[axle.axle].x, 0.0, state[wheel_state::depth] - soil.back().deflection});
     }
-    nose_down = std::atan(plane_through(sunk).along);
-    Wrench sum;
-    sum.add(tilted(question_.centre_of_gravity, nose_down, 0.0), {-weight_ * along, 0.0}, -weight_ * up);
-    sum.add(tilted(question_.hitch.at, nose_down, 0.0), {-pull_along, 0.0}, -pull_down);
-    for (std::size_t i = 0; i < axles_.size(); ++i) {
-      const VehicleAxle& about = question_.axles[axles_[i].axle];
-      sum.add(tilted({about.x, 0.0, about.tire.radius}, nose_down, 0.0), {axles_[i].count * soil[i].forward, 0.0}, 0.0);
-      sum.pitch -= axles_[i].count * soil[i].soil_torque;
-    }
-    std::vector<double> next = axle_loads(carrying(nose_down), weight_ * up + pull_down, sum.pitch);
+    const Stance stance = stance_of(place, sunk, soil, at_rest, 0.0);
+    std::vector<double> next = axle_loads(carrying(stance.nose_down), stance.normal, stance.pitch);
     if (next.size() > 1 && std::ranges::count_if(next, [](double load) { return load > 0.0; }) < 2)
       throw VehicleGaveOut(GaveOut::tips_over, std::nullopt, "it tips over");
     double change = 0.0;
@@ -350,27 +337,26 @@ double VehicleRide::held(double displacement) {
     if (change <= settled * weight_) break;
     start_loads_ = loads;
   }
-  std::vector<double> torque(rotors_.size(), 0.0);
+  return forward - weight_ * std::sin(place.longitudinal_incline) - pull_along(place);
+}
+
+/// Gives each motor the torque that holds the vehicle at the start, its driven wheels pushed back so far [m].
+void VehicleRide::add_motors(double displacement) {
+  std::vector<double> torque(rotors_.size(), 0.0), carried(rotors_.size(), 0.0);
   for (std::size_t i = 0; i < axles_.size(); ++i) {
     const RollingAxle& axle = axles_[i];
     std::vector<double> state = wheel_state_of(i, start_);
-    torque[axle.rotor] += axle.count * axle.gear *
-                          axle.in_soil
-                              .rest(place_of(axle, 0.0, place), start_[axle.at + axle_heard],
-                                    rotors_[axle.rotor].driven ? displacement : 0.0, state)
-                              .soil_torque;
+    torque[axle.rotor] +=
+        axle.count * axle.gear * resting(axle, start_[axle.at + axle_heard], displacement, state).soil_torque;
+    carried[axle.rotor] += axle.count * axle.mass;
   }
   for (std::size_t k = 0; k < rotors_.size(); ++k) {
     Rotor& rotor = rotors_[k];
     if (!rotor.driven) continue;
-    double carried = 0.0;
-    for (std::size_t i = 0; i < axles_.size(); ++i)
-      if (axles_[i].rotor == k) carried += axles_[i].count * axles_[i].mass;
-    const double moved = question_.drive_line == DriveLine::motors ? carried : question_.mass;
+    const double moved = question_.drive_line == DriveLine::motors ? carried[k] : question_.mass;
     rotor.motor.emplace(rotor.controller, rotor.radius, rotor.inertia + moved * rotor.radius * rotor.radius, torque[k],
                         rotor.power, halt_, rotor.geared);
   }
-  return forward - weight_ * along - pull_along;
 }
 
 /// At rest: the driven wheels have slid back together until they hold the vehicle.
@@ -380,10 +366,10 @@ void VehicleRide::start() {
   start_loads_.clear();
   for (const RollingAxle& axle : axles_)
     start_loads_.push_back(axle.count * axle.mass * gravity_of(question_.soil) * std::cos(place.longitudinal_incline));
-  const double pull = weight_ * std::sin(place.longitudinal_incline) + place.drawbar * std::cos(question_.hitch.angle);
+  const double pull = weight_ * std::sin(place.longitudinal_incline) + pull_along(place);
   if (pull == 0.0) {
     held(0.0);
-    return;
+    return add_motors(0.0);
   }
   const double modulus = std::copysign(axles_.front().in_soil.steady().soil().shear_modulus, pull);
   constexpr double most = 32.0;
@@ -395,6 +381,7 @@ void VehicleRide::start() {
   const double root = gsl::bracketed_root([&](double d) { return held(d); }, std::min(0.0, far), std::max(0.0, far),
                                           1e-12, 1e-10 * std::abs(pull), "the shear that holds the vehicle at rest");
   held(root);
+  add_motors(root);
   try {
     for (const Rotor& rotor : rotors_)
       if (rotor.motor) rotor.motor->require_hold();
@@ -434,13 +421,30 @@ Instant VehicleRide::touch(std::size_t i, const Place& place, std::span<const do
   return known.soil;
 }
 
+/// Quasi-static, with the inertia of travel at the centre of gravity and that of the spinning wheels.
+Stance VehicleRide::stance_of(const Place& place, const std::vector<VehiclePoint>& sunk,
+                              const std::vector<Instant>& soil, const std::vector<double>& spin_rates,
+                              double acceleration) const {
+  const double up = std::cos(place.longitudinal_incline), along = std::sin(place.longitudinal_incline);
+  const double nose_down = sunk.empty() ? 0.0 : std::atan(plane_through(sunk).along);
+  Wrench sum;
+  sum.add(tilted(question_.centre_of_gravity, nose_down, 0.0), {-weight_ * along - question_.mass * acceleration, 0.0},
+          -weight_ * up);
+  sum.add(tilted(question_.hitch.at, nose_down, 0.0), {-pull_along(place), 0.0}, -pull_down(place));
+  for (std::size_t i = 0; i < axles_.size(); ++i) {
+    const RollingAxle& axle = axles_[i];
+    const VehicleAxle& about = question_.axles[axle.axle];
+    sum.add(tilted({about.x, 0.0, about.tire.radius}, nose_down, 0.0), {axle.count * soil[i].forward, 0.0}, 0.0);
+    const double spinning = axle.in_soil.inertia() * axle.gear * spin_rates[axle.rotor];
+    sum.pitch -= axle.count * (soil[i].soil_torque + spinning);
+  }
+  return {nose_down, weight_ * up + pull_down(place), sum.pitch};
+}
+
 Look VehicleRide::look(double t, std::span<const double> y, std::span<double> rates) const {
   Look now;
   const Place place = now.place = way_.at(y[at_x]);
-  const double up = std::cos(place.longitudinal_incline), along = std::sin(place.longitudinal_incline);
-  const double pull_along = place.drawbar * std::cos(question_.hitch.angle),
-               pull_down = place.drawbar * std::sin(question_.hitch.angle);
-  double forward = -weight_ * along - pull_along;
+  double forward = -weight_ * std::sin(place.longitudinal_incline) - pull_along(place);
   std::vector<double> against(rotors_.size(), 0.0);
   std::vector<VehiclePoint> sunk;
   for (std::size_t i = 0; i < axles_.size(); ++i) {
@@ -460,23 +464,10 @@ Look VehicleRide::look(double t, std::span<const double> y, std::span<double> ra
     now.torques.push_back(rotors_[k].motor ? rotors_[k].motor->torque(t, spin, error) : 0.0);
     now.spin_rates.push_back((now.torques.back() - against[k]) / rotors_[k].inertia);
   }
-  // Pitch: quasi-static, with the inertia of travel at the centre of gravity and that of the spinning wheels.
-  const double nose_down = sunk.empty() ? 0.0 : std::atan(plane_through(sunk).along);
-  Wrench sum;
-  sum.add(tilted(question_.centre_of_gravity, nose_down, 0.0),
-          {-weight_ * along - question_.mass * now.acceleration, 0.0}, -weight_ * up);
-  sum.add(tilted(question_.hitch.at, nose_down, 0.0), {-pull_along, 0.0}, -pull_down);
-  for (std::size_t i = 0; i < axles_.size(); ++i) {
-    const RollingAxle& axle = axles_[i];
-    const VehicleAxle& about = question_.axles[axle.axle];
-    sum.add(tilted({about.x, 0.0, about.tire.radius}, nose_down, 0.0), {axle.count * now.soil[i].forward, 0.0}, 0.0);
-    const double spinning = axle.in_soil.inertia() * axle.gear * now.spin_rates[axle.rotor];
-    sum.pitch -= axle.count * (now.soil[i].soil_torque + spinning);
-  }
-  const double normal = weight_ * up + pull_down;
-  now.loads = axle_loads(carrying(nose_down), normal, sum.pitch);
+  const Stance stance = stance_of(place, sunk, now.soil, now.spin_rates, now.acceleration);
+  now.loads = axle_loads(carrying(stance.nose_down), stance.normal, stance.pitch);
   for (std::size_t i = 0; i < axles_.size(); ++i) now.loads[i] /= axles_[i].count;
-  now.standing = std::min(sum.pitch / normal - rear_, front_ - sum.pitch / normal);
+  now.standing = std::min(stance.pitch / stance.normal - rear_, front_ - stance.pitch / stance.normal);
   return now;
 }
 
@@ -529,15 +520,16 @@ void VehicleRide::powers(double t, std::span<const double> y, std::span<double> 
   const Look now = look(t, y, rates);
   const double along = std::sin(now.place.longitudinal_incline);
   std::ranges::fill(out, 0.0);
-  for (std::size_t k = 0; k < rotors_.size(); ++k) out[sum_motor] += now.torques[k] * y[rotor_at(k) + rotor_spin];
-  out[sum_height] = weight_ * along * y[at_speed];
-  out[sum_drawbar] = now.place.drawbar * std::cos(question_.hitch.angle) * y[at_speed];
+  for (std::size_t k = 0; k < rotors_.size(); ++k) out[work::motor] += now.torques[k] * y[rotor_at(k) + rotor_spin];
+  out[work::height] = weight_ * along * y[at_speed];
+  out[work::drawbar] = now.place.drawbar * std::cos(question_.hitch.angle) * y[at_speed];
   for (std::size_t i = 0; i < axles_.size(); ++i) {
     const double n = axles_[i].count;
     const Instant& soil = now.soil[i];
-    out[sum_height] -= n * now.loads[i] * y[axles_[i].at + axle_sinking];
-    out[sum_compaction] += n * soil.compaction, out[sum_shear] += n * soil.shear, out[sum_added] += n * soil.added;
-    out[sum_carcass] += n * soil.carcass, out[sum_damping] += n * soil.damping;
+    out[work::height] -= n * now.loads[i] * y[axles_[i].at + axle_sinking];
+    out[work::compaction] += n * soil.compaction, out[work::shear] += n * soil.shear,
+        out[work::added] += n * soil.added;
+    out[work::carcass] += n * soil.carcass, out[work::damping] += n * soil.damping;
   }
 }
 
@@ -547,7 +539,7 @@ sundials::Problem VehicleRide::problem(const bekker_wong::DriveNumerics& numeric
   p.roots = [this](double t, auto y, auto out) { watch(t, y, out); };
   p.root_count = static_cast<int>(axle_root(axles_.size()));
   p.summands = [this](double t, auto y, auto out) { powers(t, y, out); };
-  p.sum_count = static_cast<int>(vehicle_sums);
+  p.sum_count = static_cast<int>(work::count);
   p.relative_tolerance = numerics.relative_tolerance;
   p.absolute_tolerances.assign(start_.size(), 0.0);
   double smallest = HUGE_VAL;
@@ -571,15 +563,6 @@ sundials::Problem VehicleRide::problem(const bekker_wong::DriveNumerics& numeric
   const double rim = controller.rim_speed.value_or(controller.highest_rim_speed.value_or(0.0));
   p.longest_step = rim > 0.0 ? 0.5 * smallest / rim : 0.01 * question_.drive.duration;
   return p;
-}
-
-bool VehicleRide::advance(double until) {
-  while (record_.end_time < until) {
-    const sundials::Stop stop = integrator_->advance(until);
-    record_.end_time = stop.time;
-    if (stop.at_root() && answer(stop)) return true;
-  }
-  return false;
 }
 
 /// What a root means; true where the drive ends.
@@ -606,11 +589,7 @@ bool VehicleRide::answer(const sundials::Stop& stop) {
   for (std::size_t k = 0; k < rotors_.size(); ++k) {
     const int upper = stop.signs[rotor_root(k)], lower = stop.signs[rotor_root(k) + 1];
     if (upper == 0 && lower == 0) continue;
-    const bool reached = upper > 0 || lower < 0;
-    note(!reached                       ? DriveEvent::free_again
-         : rotors_[k].controller.torque ? DriveEvent::speed_limit
-                                        : DriveEvent::torque_limit,
-         rotors_[k].first_axle);
+    note(bekker_wong::limit_event(upper, lower, rotors_[k].controller), rotors_[k].first_axle);
   }
   bool turns = false;
   std::vector<double> y = integrator_->state();
@@ -655,22 +634,17 @@ VehicleDriveSample VehicleRide::sample(double t) const {
     a.torque = soil.soil_torque + axle.in_soil.inertia() * axle.gear * now.spin_rates[axle.rotor];
     a.forward = soil.forward;
   }
-  s.energy = ledger(y);
+  s.energy = bekker_wong::ledger_of(integrator_->sums(), in_motion(y));
   return s;
 }
 
-bekker_wong::EnergyLedger VehicleRide::ledger(std::span<const double> y) const {
-  const std::vector<double>& sum = integrator_->sums();
-  bekker_wong::EnergyLedger e;
-  e.kinetic = 0.5 * question_.mass * y[at_speed] * y[at_speed];
+double VehicleRide::in_motion(std::span<const double> y) const {
+  double energy = 0.5 * question_.mass * y[at_speed] * y[at_speed];
   for (const RollingAxle& axle : axles_)
-    e.kinetic += 0.5 * axle.count * axle.mass * y[axle.at + axle_sinking] * y[axle.at + axle_sinking];
+    energy += 0.5 * axle.count * axle.mass * y[axle.at + axle_sinking] * y[axle.at + axle_sinking];
   for (std::size_t k = 0; k < rotors_.size(); ++k)
-    e.kinetic += 0.5 * rotors_[k].inertia * y[rotor_at(k) + rotor_spin] * y[rotor_at(k) + rotor_spin];
-  e.motor = sum[sum_motor], e.height = sum[sum_height], e.drawbar = sum[sum_drawbar];
-  e.compaction = sum[sum_compaction], e.shear = sum[sum_shear], e.added = sum[sum_added];
-  e.carcass = sum[sum_carcass], e.damping = sum[sum_damping];
-  return e;
+    energy += 0.5 * rotors_[k].inertia * y[rotor_at(k) + rotor_spin] * y[rotor_at(k) + rotor_spin];
+  return energy;
 }
 
 void VehicleRide::tell_what_gave_out() {

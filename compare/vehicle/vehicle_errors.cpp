@@ -5,7 +5,6 @@
 
 #include "scenario/errors.hpp"
 #include "scenario/soil_parameters.hpp"
-#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 

@@ -9,8 +9,6 @@
 namespace soilbin::compare {
 namespace {
 
-bool is_steered(const VehicleAxle& axle) { return axle.steered == YesNo::yes; }
-
 void require_turning(const VehicleCase& question) {
   if (question.condition.slope != 0.0 || question.condition.cross_slope != 0.0)
     throw InputError("a turn is asked on level ground: on a slope no turn is steady");

@@ -67,7 +67,7 @@ ConeRun cone_penetration(const GranularSoil& soil, const ConeSettings& settings,
   check(settings);
   const double d = mean_diameter(soil), diameter = settings.diameter * d, height = slenderness() * diameter;
   const auto bed = bed_for_tool(soil, settings.bed, diameter, how, beds);
-  const double middle = bed->recipe.size.length / 2, start = highest_within(*bed, d);
+  const double middle = bed->recipe.size.length / 2, start = highest_within(*bed, d), surface = surface_of(*bed);
   Body cone;
   cone.name = "cone";
   cone.surfaces.push_back({surface_at(cone_on_shaft(diameter, settings.depth * diameter + 4 * d), {}), 1});
@@ -75,7 +75,8 @@ ConeRun cone_penetration(const GranularSoil& soil, const ConeSettings& settings,
   const Pressing pressing{.tool = std::move(cone),
                           .base = height,
                           .diameter = diameter,
-                          .way = start - surface_of(*bed) + height + settings.depth * diameter,
+                          .surface = surface,
+                          .way = start - surface + height + settings.depth * diameter,
                           .speed = settings.speed * std::sqrt(bed->recipe.gravity * d),
                           .samples = settings.samples};
   SteppedWork work(how);

@@ -33,13 +33,14 @@ PlateRun press_plate(const SettledBed& bed, double diameter, const PlateSettings
   const double thick = (settings.sinkage + 4) * d;  // no grain gets on top of it
   disc.surfaces.push_back({surface_at(smooth_wheel(diameter / 2, thick, 48), {}), 1});
   disc.rotation = rotation_by({pi / 2, 0, 0});  // axle upright
-  const double start = highest_within(bed, diameter / 2);
+  const double start = highest_within(bed, diameter / 2), surface = surface_of(bed);
   disc.position = {middle, middle, start + thick / 2};
   return press(bed, simulation_on(bed, how),
                {.tool = std::move(disc),
                 .base = -thick / 2,
                 .diameter = diameter,
-                .way = start - surface_of(bed) + settings.sinkage * d,
+                .surface = surface,
+                .way = start - surface + settings.sinkage * d,
                 .speed = settings.speed * std::sqrt(bed.recipe.gravity * d),
                 .samples = settings.samples},
                work);

@@ -53,7 +53,7 @@ double highest_within(const SettledBed& bed, double radius) {
 }
 
 PlateRun press(const SettledBed& bed, Simulation simulation, const Pressing& pressing, SteppedWork& work) {
-  const double surface = surface_of(bed), area = pi * pressing.diameter * pressing.diameter / 4;
+  const double area = pi * pressing.diameter * pressing.diameter / 4;
   PlateRun run;
   run.diameter = pressing.diameter, run.speed = pressing.speed;
   run.packing = bed.recipe.packing, run.grains = number_of_grains(bed.state);
@@ -69,7 +69,7 @@ PlateRun press(const SettledBed& bed, Simulation simulation, const Pressing& pre
       work.step(simulation);
       const Body& at = simulation.body(index);
       sample.pressure += at.force.z / (area * static_cast<double>(steps));
-      sample.sinkage += (surface - (at.position.z + pressing.base)) / static_cast<double>(steps);
+      sample.sinkage += (pressing.surface - (at.position.z + pressing.base)) / static_cast<double>(steps);
     }
     run.curve.push_back(sample);
   }

@@ -27,6 +27,7 @@ struct Pressing {
   Body tool;            ///< where it starts
   double base = 0;      ///< of what its sinkage counts by, above the place of the tool [m]
   double diameter = 0;  ///< of the circle over whose area its pressure is [m]
+  double surface = 0;   ///< of the bed, from which its sinkage counts (surface_of) [m]
   double way = 0;       ///< down [m]
   double speed = 0;     ///< [m/s]
   int samples = 0;

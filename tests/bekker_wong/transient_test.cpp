@@ -11,6 +11,7 @@
 #include "scenario/drive_way.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
@@ -313,12 +314,8 @@ TEST(Transient, SoilsCloserThanARadiusTakeOverWithoutAJump) {
 TEST(Transient, RefusesWhatItCannotAnswer) {
   Drive d = drive();
   d.effects = {{"slip_sinkage", "lyasko", {}}};
-  try {
-    drive_wheel(scenario(), d);
-    FAIL();
-  } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), testing::HasSubstr("slip_sinkage (lyasko): it moves the wheel after the balance"));
-  }
+  EXPECT_THAT(soilbin::test::refusal([&] { drive_wheel(scenario(), d); }),
+              testing::HasSubstr("slip_sinkage (lyasko): it moves the wheel after the balance"));
   EXPECT_THROW(drive_wheel(scenario(), drive(40 * degree)), NoSolution) << "it slides down before it is driven";
   Scenario bare = scenario();
   bare.soil.semi_empirical.reset();

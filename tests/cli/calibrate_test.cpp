@@ -51,9 +51,7 @@ TEST(CalibrateCommand, RefusesWhatMakesNoSenseWithAHint) {
 TEST(CalibrateCommand, NamesAStoreThatIsNone) {
   const Scratch scratch;
   const auto store = scratch.write("store.json", "{}");
-  const Outcome outcome = soilbin("calibrate paper-sand --store '" + store.string() + "'");
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("store.json"));
+  EXPECT_THAT(soilbin("calibrate paper-sand --store '" + store.string() + "'"), Refuses(HasSubstr("store.json")));
 }
 
 /// Four grains across, two boards, the law that takes the longer step: seconds of work.

@@ -1,8 +1,8 @@
 // Runs the built command and catches what it says.
 #pragma once
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+
+#include "tests/folder.hpp"
 
 namespace soilbin::cli::test {
 
@@ -30,29 +32,13 @@ inline std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-/// A folder that goes away with the test.
-class Scratch {
- public:
-  Scratch() {
-    std::string pattern = (fs::temp_directory_path() / "soilbin-cli-XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  ~Scratch() {
-    std::error_code error;
-    fs::remove_all(path_, error);
-  }
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-  fs::path write(const std::string& name, const std::string& text) const {
-    fs::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return path_ / name;
-  }
+/// Bad input: status 2, and what standard error tells of it.
+MATCHER_P(Refuses, told, "is refused") {
+  *result_listener << "status " << arg.status << ": " << arg.err;
+  return arg.status == 2 && testing::Matches(told)(arg.err);
+}
 
- private:
-  fs::path path_;
-};
+using Scratch = soilbin::test::Folder;
 
 /// Runs 'soilbin <arguments>', quoted as for a shell; `before`: words before it.
 inline Outcome soilbin(const std::string& arguments, const std::string& before = "") {

@@ -21,9 +21,8 @@ TEST(Init, ACampaignIsTakenAsItStands) {
   EXPECT_THAT(checked.out, HasSubstr("no warnings"));
   EXPECT_EQ(soilbin("predict '" + folder + "' --json").json()["rows"].size(), 24u);
   EXPECT_EQ(soilbin("loop '" + folder + "' --json").json()["verdict"], "effect_found");
-  const Outcome again = soilbin("init '" + folder + "' --campaign");
-  EXPECT_EQ(again.status, 2);
-  EXPECT_THAT(again.err, HasSubstr("campaign.yaml is there already and stays as it is"));
+  EXPECT_THAT(soilbin("init '" + folder + "' --campaign"),
+              Refuses(HasSubstr("campaign.yaml is there already and stays as it is")));
 }
 
 TEST(Plates, GiveLinesForACampaign) {
@@ -39,9 +38,7 @@ TEST(Plates, GiveLinesForACampaign) {
   EXPECT_EQ(fit["format"], "soilbin-plates/1");
   EXPECT_GT(fit["exponent"]["std_error"], 0.0);
   EXPECT_EQ(fit["plates"].size(), 3u);
-  const Outcome misspelt = soilbin("plates '" + file + "' --only box=large-bx");
-  EXPECT_EQ(misspelt.status, 2);
-  EXPECT_THAT(misspelt.err, HasSubstr("did you mean 'large-box'?"));
+  EXPECT_THAT(soilbin("plates '" + file + "' --only box=large-bx"), Refuses(HasSubstr("did you mean 'large-box'?")));
 }
 
 }  // namespace

@@ -121,9 +121,7 @@ TEST(SlowLoopCommand, OpensWithAColumnThatLooksMistaken) {
 }
 
 TEST(LoopCommand, RefusesALimitThatIsNone) {
-  const Outcome outcome = soilbin("loop made-lesson --limit lod=1..2");
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("did you mean 'load'"));
+  EXPECT_THAT(soilbin("loop made-lesson --limit lod=1..2"), Refuses(HasSubstr("did you mean 'load'")));
   EXPECT_THAT(soilbin("loop made-lesson --limit load=2m..3m").err, HasSubstr("'m' is a length"));
   EXPECT_THAT(soilbin("loop made-lesson --limit load=3kN..2kN").err, HasSubstr("the lower end is above the upper"));
   EXPECT_THAT(soilbin("loop made-lesson --limit speed=0m/s..1m/s").err, HasSubstr("must be above 0 m/s"));

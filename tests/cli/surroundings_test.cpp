@@ -88,9 +88,8 @@ TEST(Surroundings, AMergeOverwritesNothingThatItDoesNotHold) {
 }
 
 TEST(Surroundings, AWholeNumberThatIsTooLargeIsToldItsRange) {
-  const Outcome r = soilbin(wheel_asked + " --pass 2147483647");
-  EXPECT_EQ(r.status, 2);
-  EXPECT_THAT(r.err, HasSubstr("--pass: expected a whole number from 1 to 1000000000, not '2147483647'"));
+  EXPECT_THAT(soilbin(wheel_asked + " --pass 2147483647"),
+              Refuses(HasSubstr("--pass: expected a whole number from 1 to 1000000000, not '2147483647'")));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "compare/loop/loop.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -109,12 +110,7 @@ TEST(CampaignOfRecords, CountsWhatItLeavesOut) {
 
 TEST(CampaignOfRecords, RefusesWhatItCannotTell) {
   const auto refusal = [](const Scenario& scenario, const CampaignOptions& disclosed) -> std::string {
-    try {
-      campaign_from_runs(scenario, on_a_slope(), disclosed);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return soilbin::test::error_of([&] { campaign_from_runs(scenario, on_a_slope(), disclosed); });
   };
   EXPECT_THAT(refusal(sand_scenario(), {.hide = {"lug"}}), HasSubstr("did you mean 'lugs'?"));
   EXPECT_THAT(refusal(sand_scenario(), {.hide = {"load"}}), HasSubstr("nothing to hide is called 'load'"));

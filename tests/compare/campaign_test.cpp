@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <numbers>
 
@@ -14,6 +13,7 @@
 #include "scenario/library.hpp"
 #include "scenario/soil_parameters.hpp"
 #include "scenario/unit.hpp"
+#include "tests/folder.hpp"
 #include "tests/scenario/fake_vocabulary.hpp"
 #include "tests/scenario/refusal.hpp"
 
@@ -316,13 +316,8 @@ TEST(CampaignRefuses, MistakesInTheYaml) {
 
 class CampaignFolder : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "soilbin-campaign-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_;
+  const test::Folder scratch_;
+  const std::filesystem::path folder_ = scratch_.path();
 };
 
 TEST_F(CampaignFolder, IsWrittenAndReadBack) {

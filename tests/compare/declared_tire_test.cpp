@@ -6,6 +6,7 @@
 
 #include "scenario/errors.hpp"
 #include "scenario/tire_size.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -33,12 +34,7 @@ std::vector<std::string> effects_of(const Case& question) {
 }
 
 std::string why_refused(Case question, const TireLeftOut& left_out) {
-  try {
-    as_declared(question, left_out);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return soilbin::test::error_of([&] { as_declared(question, left_out); });
 }
 
 TEST(DeclaredTire, IsFlexibleAndHasItsLugs) {

@@ -10,6 +10,7 @@
 #include "compare/design/factor.hpp"
 #include "compare/design/orthogonal_array.hpp"
 #include "scenario/errors.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -80,12 +81,7 @@ TEST(OrthogonalArrays, L9IsTaguchisTable) {
 }
 
 TEST(OrthogonalArrays, AWrongNameAndTooManyFactorsAreRefused) {
-  try {
-    named_array("L8");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("L9"));
-  }
+  EXPECT_THAT(soilbin::test::refusal([&] { named_array("L8"); }), HasSubstr("L9"));
   EXPECT_THROW(first_columns(named_array("L9"), 5), InputError);
 }
 

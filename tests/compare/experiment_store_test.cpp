@@ -15,6 +15,7 @@
 #include "scenario/file_bytes.hpp"
 #include "tests/compare/stand_in_board.hpp"
 #include "tests/dem/archive_scene.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -33,12 +34,7 @@ Experiment made_experiment(double friction) { return {at(friction), 7, {{8.47 + 
 TEST(ExperimentStores, ADamagedFileIsNamed) {
   const Folder folder;
   std::ofstream(folder / "bad.json") << "{\"format\": \"soilbin-experi";
-  try {
-    ExperimentStore store(folder / "bad.json");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("bad.json"));
-  }
+  EXPECT_THAT(soilbin::test::refusal([&] { ExperimentStore store(folder / "bad.json"); }), HasSubstr("bad.json"));
   std::ofstream(folder / "other.json") << "{\"format\": \"soilbin-run/1\"}";
   EXPECT_THROW(ExperimentStore(folder / "other.json"), InputError);
 }

@@ -11,6 +11,7 @@
 #include "compare/loop_fixture.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "scenario/errors.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -189,12 +190,7 @@ TEST(TestDesign, LeavesOutWhatTheSoilDoesNotCarry) {
 
 TEST(TestDesign, RefusesWhatItCannotPlan) {
   const auto refusal = [](const Campaign& campaign, const DesignOptions& asked) {
-    try {
-      design_test(campaign, asked);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return soilbin::test::error_of([&] { design_test(campaign, asked); });
   };
   DesignOptions asked = options(12);
   asked.effects = {"slip_sinkag"};

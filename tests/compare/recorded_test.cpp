@@ -9,6 +9,7 @@
 #include "compare/telling/answer_report.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -140,12 +141,7 @@ std::string said_by(Record record) {
 }
 
 void expect_refused(const std::string& text, const std::string& words) {
-  try {
-    parse_record({"r.json", text});
-    FAIL() << "took it: " << words;
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(words));
-  }
+  EXPECT_THAT(soilbin::test::refusal([&] { parse_record({"r.json", text}); }), HasSubstr(words));
 }
 
 TEST(Record, NamesThePlaceOfWhatIsWrong) {

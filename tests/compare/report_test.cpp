@@ -2,10 +2,8 @@
 
 #include <fmt/core.h>
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <sstream>
 
 #include "compare/report/heat_map.hpp"
@@ -19,11 +17,10 @@
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 #include "scenario/file_bytes.hpp"
+#include "tests/folder.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-namespace fs = std::filesystem;
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -112,7 +109,7 @@ TEST(Page, EscapesAndClosesWhatItOpens) {
 
 // A card says what its page says of itself, and the way to it from the page that links.
 TEST(Page, ACardIsTakenFromThePageItself) {
-  const fs::path folder = fs::temp_directory_path() / fmt::format("soilbin-card-{}", ::getpid());
+  const test::Folder folder;
   Report report{"A <page>", "below"};
   report.add(Sentences(std::vector<BackedSentence>{{"Name", "It pulls 4 N & more."}, {"", "Second."}}));
   report.add(Figure(Sheet{"", {Plot{"first", {}, {}, {line("s", {1, 2})}}}, Palette::ordered}, "caption"));
@@ -128,11 +125,10 @@ TEST(Page, ACardIsTakenFromThePageItself) {
   write_file_atomically(folder / "other.html", "<html></html>");
   EXPECT_THROW(page_card(folder / "other.html", folder / "index.html"), InputError);
   EXPECT_THROW(page_card(folder / "none.html", folder / "index.html"), InputError);
-  fs::remove_all(folder);
 }
 
 TEST(Page, ACardsLineEndsAtAWord) {
-  const fs::path folder = fs::temp_directory_path() / fmt::format("soilbin-card-line-{}", ::getpid());
+  const test::Folder folder;
   const auto line_of = [&](const std::string& text) {
     Report report{"title", "below"};
     report.add(Sentences(std::vector{text}));
@@ -145,18 +141,16 @@ TEST(Page, ACardsLineEndsAtAWord) {
   EXPECT_LT(line_of(words).size(), 180U);
   const std::string sentence = "A first sentence that says what the linked page has found out of it.";
   EXPECT_EQ(line_of(sentence + " " + words), sentence);
-  fs::remove_all(folder);
 }
 
 TEST(Page, ACardOfAHeatMapShowsIt) {
-  const fs::path folder = fs::temp_directory_path() / fmt::format("soilbin-card-heat-{}", ::getpid());
+  const test::Folder folder;
   Report report{"title", "below"};
   HeatMap map;
   map.title = "where", map.x = {"1"}, map.y = {"2"}, map.cells = {{{3.0, "+3", "three", true}}};
   report.add(Drawings{{heat_map_svg(map)}, "caption", "", true});
   write_file_atomically(folder / "page.html", page_of(report, {}));
   EXPECT_THAT(page_card(folder / "page.html", folder / "index.html").drawing, HasSubstr("where"));
-  fs::remove_all(folder);
 }
 
 TEST(ModelNames, AreThoseOfPeople) {
@@ -329,8 +323,8 @@ TEST(Report, APageHasItsPartsInOrderAndTheWarningsBehindTheFirstSentences) {
 }
 
 TEST(Report, MarkdownHasFiguresAndDataBesideIt) {
-  const fs::path folder = fs::temp_directory_path() / fmt::format("soilbin-report-{}", getpid());
-  write_markdown(folder, small_report(), {"soilbin pull", {}, {"coarse grains"}}, true);
+  const test::Folder folder;
+  write_markdown(folder.path(), small_report(), {"soilbin pull", {}, {"coarse grains"}}, true);
   const auto text = [&](const char* name) { return read_bytes(folder / name, 1U << 20U); };
   EXPECT_THAT(text("report.md"),
               AllOf(HasSubstr("# Pull\n"), HasSubstr("- **Deep.** it sinks."), HasSubstr("| 20 | 15.2 |")));
@@ -338,7 +332,6 @@ TEST(Report, MarkdownHasFiguresAndDataBesideIt) {
   EXPECT_THAT(text("data.csv"), EndsWith("slip;pull\n0,2;15,2\n"));
   EXPECT_THAT(text("report.md"), HasSubstr("## Warnings\n\n- coarse grains\n"));
   EXPECT_EQ(Json::parse(text("data.json")), small_report().data());
-  fs::remove_all(folder);
 }
 
 }  // namespace

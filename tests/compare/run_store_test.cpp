@@ -16,6 +16,7 @@
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
 #include "tests/dem/archive_scene.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -223,12 +224,8 @@ TEST_F(SlowRunStore, WhoIsKilledLosesNothing) {
   std::string damaged = journal;
   damaged.replace(damaged.find("\"torque\":"), 10, "\"torque\":1");
   std::ofstream(file("k.json.journal")) << damaged;
-  try {
-    read_record(file("k.json"));
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("k.json.journal: runs[0]: its seal doesn't fit"));
-  }
+  EXPECT_THAT(soilbin::test::refusal([&] { read_record(file("k.json")); }),
+              HasSubstr("k.json.journal: runs[0]: its seal doesn't fit"));
 }
 
 // What a run could be had again from is let go only with the run in the file: never before, however the writing fails.

@@ -7,6 +7,7 @@
 #include "scenario/errors.hpp"
 #include "tests/dem/archive_scene.hpp"
 #include "tests/dem/small_bed.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -98,12 +99,7 @@ const Decision& whole() {
 }
 
 std::string says_of(const TrialQuestion& wrong, const TrialSettings& settings) {
-  try {
-    check(wrong, settings);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return soilbin::test::error_of([&] { check(wrong, settings); });
 }
 
 TEST(SlowSoilBinTrials, TheContactOfNatureIsFoundAgainAndATieIsSaid) {

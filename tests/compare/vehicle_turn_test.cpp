@@ -10,6 +10,7 @@
 #include "bekker_wong/model.hpp"
 #include "scenario/yawed_frames.hpp"
 #include "tests/fixtures.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -205,12 +206,7 @@ TEST(VehicleTurn, OnSandSidesResistAndTheMotorMayGiveOutFirst) {
 
 TEST(VehicleTurn, SaysWhatItNeedsToTurn) {
   const auto told = [](const VehicleCase& vehicle) -> std::string {
-    try {
-      turn_of(vehicle, wheels_of(vehicle), soft_soil);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return soilbin::test::error_of([&] { turn_of(vehicle, wheels_of(vehicle), soft_soil); });
   };
   VehicleCase locked = rover_by_sides();
   locked.drive_line = DriveLine::locked;

@@ -19,6 +19,7 @@
 #include "compare/rover_fixture.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -456,12 +457,8 @@ TEST(WheelFmu, IsItsSourceWhereThereIsNoCompiler) {
 
 TEST(WheelFmu, NeedsSlipsFromRestOn) {
   const auto refusal = [](Case question) -> std::string {
-    try {
-      wheel_fmu(force_table(std::move(question)), {.name = "rover", .version = "1"});
-    } catch (const InputError& wrong) {
-      return wrong.what();
-    }
-    return "";
+    return soilbin::test::error_of(
+        [&] { wheel_fmu(force_table(std::move(question)), {.name = "rover", .version = "1"}); });
   };
   Case question = rover_grid();
   for (OperatingCondition& at : question.study.conditions) at.force_frame = ForceFrame::wheel;

@@ -12,28 +12,11 @@
 #include "dem/bed/insertion.hpp"
 #include "dem/engine/simulation.hpp"
 #include "dem/surface/shapes.hpp"
+#include "tests/folder.hpp"
 
 namespace soilbin::dem::test {
 
-/// A folder of its own that goes away.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "soilbin-archive-XXXXXX").string();
-    if (::mkdtemp(name.data())) path_ = name;
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using soilbin::test::Folder;
 
 inline std::string read_bytes(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -17,6 +17,7 @@
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 #include "tests/dem/archive_scene.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -30,12 +31,7 @@ using ::testing::HasSubstr;
 
 /// What a file is refused with; empty where it is taken.
 std::string file_refusal(const std::filesystem::path& path) {
-  try {
-    read_restart(path);
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return soilbin::test::error_of([&] { read_restart(path); });
 }
 
 TEST(Restart, GivesBackEveryBit) {

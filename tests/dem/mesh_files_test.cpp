@@ -14,6 +14,7 @@
 #include "dem/surface/mass_properties.hpp"
 #include "dem/surface/shapes.hpp"
 #include "scenario/errors.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -111,12 +112,7 @@ TEST_F(MeshFiles, AWheelAsDrawnHasTheTiresSizeAndStandsOnItsAxle) {
   const fs::path path = folder_ / "wheel.stl";
   const auto says = [&](const TriangleMesh& mesh) -> std::string {
     write_stl(path, mesh, 1e-3);
-    try {
-      tire_surface(small_rover(), {.drawn = path.string()});
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return soilbin::test::error_of([&] { tire_surface(small_rover(), {.drawn = path.string()}); });
   };
   Tire other = small_rover();
   EXPECT_EQ(says(tire_surface(other, {.edge = 0.01})), "");

@@ -16,6 +16,7 @@
 #include "tests/dem/archive_scene.hpp"
 #include "tests/dem/small_bed.hpp"
 #include "tests/dem/worlds.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -391,12 +392,7 @@ Scenario small_scenario() {
 
 template <class Work>
 void expect_refused(const char* why, const Work& work) {
-  try {
-    work();
-    ADD_FAILURE() << "not refused: " << why;
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(why));
-  }
+  EXPECT_THAT(soilbin::test::refusal([&] { work(); }), HasSubstr(why));
 }
 
 TEST(MovingPatch, RefusesWhatItDoesNotHave) {

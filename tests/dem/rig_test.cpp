@@ -10,6 +10,7 @@
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 #include "tests/dem/small_bed.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -228,12 +229,7 @@ TEST_F(SlowSmallWheel, GivesTheSameForAnyNumberOfThreadsAndStopsWhenAsked) {
 
 /// What way_in_bin says against it; "" where it says nothing.
 std::string against(const BedSize& size, const Tire& tire, const Rig& rig) {
-  try {
-    way_in_bin(size, tire, rig);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return soilbin::test::error_of([&] { way_in_bin(size, tire, rig); });
 }
 
 // A wheel of 120 mm with lugs of 10 mm: its outer radius is 130 mm. At 50 mm from a wall it hangs over that from a
@@ -280,14 +276,7 @@ TEST(DemModel, AStepOrABedThatMakesNoSenseIsRefusedAtOnce) {
   Scenario scenario;
   scenario.tire = test::small_wheel();
   scenario.soil.granular = test::soft_soil();
-  const auto says = [&] {
-    try {
-      DemModel(settings).check(scenario);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
+  const auto says = [&] { return soilbin::test::error_of([&] { DemModel(settings).check(scenario); }); };
   EXPECT_EQ(says(), "");
   settings.rig.dt = 1.05 * longest_step(*scenario.soil.granular);
   EXPECT_EQ(says(), "");

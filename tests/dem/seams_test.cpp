@@ -7,6 +7,7 @@
 #include "dem/surface/shapes.hpp"
 #include "scenario/errors.hpp"
 #include "tests/dem/worlds.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -29,12 +30,7 @@ Body with(std::vector<Surface> surfaces) {
 }
 
 std::string refused(const Body& body) {
-  try {
-    check_seams(body);
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return soilbin::test::error_of([&] { check_seams(body); });
 }
 
 TEST(Seams, OfTwoSheetsInOnePlaneAreRefused) {

@@ -14,6 +14,7 @@
 #include "dem/surface/touching_points.hpp"
 #include "dem/surface/triangle_grid.hpp"
 #include "scenario/errors.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -45,12 +46,7 @@ double volume(const TriangleMesh& mesh) { return mass_properties(mesh).volume; }
 double strip(double r, double s) { return s * std::sqrt(r * r - s * s) + r * r * std::asin(s / r); }
 
 std::string shape_refusal(const std::function<void()>& make) {
-  try {
-    make();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return soilbin::test::error_of([&] { make(); });
 }
 
 TEST(Shapes, ABoxIsABoxHoweverFine) {

@@ -12,6 +12,7 @@
 #include "dem/surface/mass_properties.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -20,12 +21,8 @@ using tests::Soup;
 
 /// What the mesh says to these triangles; empty if it takes them.
 std::string mesh_refusal(const Soup& soup, bool closed = false) {
-  try {
-    TriangleMesh(soup.vertices, soup.triangles, {.closed = closed, .name = "part.stl"});
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return soilbin::test::error_of(
+      [&] { TriangleMesh(soup.vertices, soup.triangles, {.closed = closed, .name = "part.stl"}); });
 }
 
 testing::Matcher<std::string> says(const std::string& what) {

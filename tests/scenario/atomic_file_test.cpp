@@ -10,6 +10,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "tests/folder.hpp"
+#include "tests/scenario/refusal.hpp"
+
 namespace soilbin {
 namespace {
 
@@ -23,16 +26,10 @@ std::string content(const fs::path& path) {
 
 class AtomicFile : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "soilbin-atomic-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   long files() const { return std::distance(fs::directory_iterator(folder_), fs::directory_iterator()); }
 
-  fs::path folder_;
+  const test::Folder scratch_;
+  const fs::path folder_ = scratch_.path();
 };
 
 TEST_F(AtomicFile, WritesAndReplaces) {
@@ -133,12 +130,8 @@ TEST_F(AtomicFile, ATrialSaysWhyAndLeavesNothing) {
 
 TEST_F(AtomicFile, AFailureLeavesNothingBehind) {
   fs::create_directories(folder_ / "b.txt" / "inside");
-  try {
-    write_file_atomically(folder_ / "b.txt", "x");
-    ADD_FAILURE() << "a folder was replaced";
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("b.txt: can't write: "));
-  }
+  EXPECT_THAT(test::refusal<std::runtime_error>([&] { write_file_atomically(folder_ / "b.txt", "x"); }),
+              testing::HasSubstr("b.txt: can't write: "));
   EXPECT_EQ(files(), 1) << "only the folder b.txt";
 }
 

@@ -6,6 +6,8 @@
 
 #include <stdexcept>
 
+#include "tests/folder.hpp"
+
 namespace soilbin {
 namespace {
 
@@ -13,17 +15,10 @@ namespace fs = std::filesystem;
 
 class FileLocks : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "soilbin-lock-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override {
-    set_while_waiting({});
-    fs::remove_all(folder_);
-  }
+  void TearDown() override { set_while_waiting({}); }
 
-  fs::path folder_;
+  const test::Folder scratch_;
+  const fs::path folder_ = scratch_.path();
 };
 
 TEST_F(FileLocks, OnlyOneHoldsIt) {

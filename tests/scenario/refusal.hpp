@@ -10,16 +10,23 @@
 
 namespace soilbin::test {
 
-/// The message of the InputError that an action throws; a failed test and "" where it throws none.
-template <class Action>
-std::string refusal(const Action& action) {
+/// The message of the error that an action throws; "" where it throws none.
+template <class Error = InputError, class Action>
+std::string error_of(const Action& action) {
   try {
     action();
-  } catch (const InputError& error) {
+  } catch (const Error& error) {
     return error.what();
   }
-  ADD_FAILURE() << "nothing was refused";
   return "";
+}
+
+/// error_of; a failed test where it throws none.
+template <class Error = InputError, class Action>
+std::string refusal(const Action& action) {
+  const std::string error = error_of<Error>(action);
+  EXPECT_NE(error, "") << "nothing was refused";
+  return error;
 }
 
 }  // namespace soilbin::test
