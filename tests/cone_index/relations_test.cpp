@@ -71,7 +71,8 @@ TEST(Turnage, ResistsMoreTheSofterTheSand) {
 
 TEST(BothRelations, HaveTheSlopesOfTheirRatios) {
   constexpr double step = 1e-5;
-  for (Ratios (*relation)(double, double) : {brixius, turnage})
+  for (Ratios (*relation)(double, double) : {+[](double number, double slip) { return brixius(number, slip); },
+                                             +[](double number, double slip) { return turnage(number, slip); }})
     for (const double number : {6.0, 20.0, 60.0})
       for (const double slip : {0.05, 0.2, 0.6}) {
         const Ratios at = relation(number, slip), above = relation(number + step, slip),
