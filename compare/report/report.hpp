@@ -146,8 +146,8 @@ struct Report {
   void add(ReportContent content, Told told = Told::everywhere) { parts.push_back({std::move(content), told}); }
   /// Below a heading, which the contents of a page list.
   void add(std::string section, ReportContent content, Told told = Told::everywhere, std::string anchor = "",
-           ReportPart::Heading heading = ReportPart::Heading::section) {
-    parts.push_back({std::move(content), told, std::move(section), std::move(anchor), heading});
+           ReportPart::Heading below = ReportPart::Heading::section) {
+    parts.push_back({std::move(content), told, std::move(section), std::move(anchor), below});
   }
 };
 

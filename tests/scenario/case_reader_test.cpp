@@ -125,7 +125,7 @@ TEST(CaseReader, AMisspeltKeyIsShownWithTheRightOne) {
             "  4 |   raduis: 250 mm\n"
             "    |   ^\n"
             "  hint: keys here: name, source, radius, width, lugs, inflation_pressure, carcass_pressure, deflection, "
-            "section_height");
+            "section_height, construction");
   EXPECT_THAT(refused(with("count", "cuont")), HasSubstr("case.yaml:6:24: unknown key 'cuont', did you mean 'count'?"));
   EXPECT_THAT(refused(with("name: example", "nmae: example")),
               StartsWith("case.yaml:2:1: unknown key 'nmae', did you mean 'name'?"));
