@@ -239,18 +239,21 @@ soilbin.LivePage = class {
     soilbin.part('spoken').textContent = this.refused ? '' : said;
   }
 
-  // The words are the command's: its flags are this page's controls.
-  complain(error, hint) {
-    const say = soilbin.part('say'), here = text => text && text.replace(/--([a-z0-9-]+)/g, (flag, key) =>
+  // The words are the command's: its flags are this page's controls. Several doubts are folded.
+  complain(error, hint, doubts = []) {
+    const {make} = soilbin, say = soilbin.part('say'), folded = say.querySelector('details'), here = text => text && text.replace(/--([a-z0-9-]+)/g, (flag, key) =>
       this.numbers.has(key) ? `\u2018${this.numbers.get(key).number.title}\u2019` : flag);
-    [error, hint] = [here(error), here(hint)];
-    say.hidden = !error;
-    say.replaceChildren(...(error ? [soilbin.make('p', {textContent: error})] : []),
-                        ...(error && hint ? [soilbin.make('p', {textContent: `Hint: ${hint}`})] : []));
+    say.hidden = !error && !doubts.length;
+    const lines = [error, error && hint && `Hint: ${hint}`, doubts.length === 1 && doubts[0]].filter(Boolean);
+    say.replaceChildren(...lines.map(line => make('p', {textContent: here(line)})),
+                        ...(doubts.length > 1 ? [make('details', {open: Boolean(folded && folded.open)},
+                                                      make('summary', {textContent: `${doubts.length} warnings`}),
+                                                      make('ul', {}, ...doubts.map(doubt => make('li', {textContent: here(doubt)}))))]
+                                              : []));
   }
 
   // What is wrong, or doubtful, in an answer.
-  say(answer) { this.complain(answer.error || (answer.warnings || []).join('; '), answer.hint); }
+  say(answer) { this.complain(answer.error, answer.hint, answer.error ? [] : answer.warnings); }
   // Whether there is something in an answer to draw in the place of the last one.
   isDrawn(answer) { return Boolean(answer.curves); }
   commandOf(answer) { return answer.command; }

@@ -32,7 +32,8 @@ soilbin.WheelPage = class extends soilbin.LivePage {
 
   say(answer) {
     const second = answer.beside && answer.beside.error ? `${answer.beside.label}: ${answer.beside.error}` : '';
-    this.complain(answer.error || second || (answer.warnings || []).join('; '), answer.hint || (second && answer.beside.hint));
+    const wrong = answer.error || second;
+    this.complain(wrong, answer.hint || (second && answer.beside.hint), wrong ? [] : answer.warnings);
     if (answer.carried_load) this.offerLoad(answer.carried_load);
   }
 

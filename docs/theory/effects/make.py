@@ -31,7 +31,9 @@ that. What trace each effect leaves in measurements: [effects.md]({effects}) and
 - Sketches, not to scale: the soil is brown, what the effect adds orange ([sketches.py](effects/sketches.py)).
 - Symbols: [the list](symbols.md). A subscript 0 is the value without the effect, $z_b$ the sinkage of the balance, $d$
   in drift and gradient the distance from a reference run or place, $L$ its logarithm,
-  $N_\\phi = \\tan^2(\\pi/4 + \\varphi/2)$.
+  $N_\\varphi = \\tan^2(\\pi/4 + \\varphi/2)$; of bulldozing $l_0 = z/N_\\varphi$,
+  $K_c = (N_c - \\tan\\varphi)\\cos^2\\varphi$, $K_\\gamma = (2 N_\\gamma/\\tan\\varphi + 1)\\cos^2\\varphi$, with Terzaghi's $N_c$ and
+  $N_q$, and the fit $N_\\gamma = 2\\,(N_q + 1)\\tan\\varphi/(1 + 0.4\\sin 4\\varphi)$.
 """
 
 
