@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -221,11 +222,12 @@ TEST(SlowRecord, ThoseOfTheLibraryAreWrittenBackAsTheyAre) {
     const Record record = read_record(entry);
     const std::string text = record_text(record);
     EXPECT_TRUE(record_text(parse_record({"again", text})) == text) << entry.path();
-    const bool told = std::isfinite(record.runs.front().bed.void_ratio);
+    const bool told =
+        std::ranges::any_of(record.runs, [](const auto& run) { return std::isfinite(run.bed.void_ratio); });
     EXPECT_EQ(text == read_bytes(entry, 1 << 26), told) << entry.path();
     as_they_are += told;
   }
-  EXPECT_EQ(as_they_are, 10);
+  EXPECT_EQ(as_they_are, 12);
 }
 
 TEST(RecordedModel, AnswersWhatIsThereAndSaysWhatIsNot) {
