@@ -105,8 +105,7 @@ std::vector<EffectForm> moisture_forms() {
        .form = "optimum",
        .equation = "k and c times exp(-a (w - w_o)^2), w in percentage points",
        .source = "stated here: a soil is strongest at one water content; after Proctor 1933, Engineering News-Record "
-                 "111, for whom "
-                 "that is its density",
+                 "111, for whom that is its density",
        .parameters = {{"a", "-", 0.005, -1.0, 1.0, "logarithmic loss a squared percentage point from the optimum"},
                       {"w_o", "%", 0.08, 0.0, 1.0, "optimum water content", "moisture", 1.0}},
        .make = maker<Wetted<fall_from_optimum>>()},

@@ -42,13 +42,15 @@ class Reload final : public Effect {
       : amplitude_(p[0]), p0_(p[1]), elastic_(p[2]), from_surface_(from_surface) {}
   bool presses() const override { return true; }
   void soil_depth(ContactPatch& patch, const Surroundings& around) const override {
-    if (share(around) == 0.0) return;
-    const double z_p = rut(around), h = share(around) * z_p, e = elastic_ * z_p;
+    const double share = left_share(around);
+    if (share == 0.0) return;
+    const double z_p = rut(around), h = share * z_p, e = elastic_ * z_p;
     if (h == 0.0) return;
     for (double& depth : patch.of(&ContactPatch::depth)) depth *= 1 + h / (depth + e);
   }
   void sensor(Reading& reading, const Surroundings& around) const override {
-    if (from_surface_ && share(around) != 0.0) reading.sinkage += share(around) * rut(around);
+    if (!from_surface_) return;
+    if (const double share = left_share(around); share != 0.0) reading.sinkage += share * rut(around);
   }
 
  private:
@@ -58,7 +60,7 @@ class Reload final : public Effect {
     return load > 0.0 ? bekker_static_sinkage(around.declared, around.tire.radius, around.tire.width, load) : 0.0;
   }
   /// Depth of the rut that the passes have left, over the static sinkage.
-  double share(const Surroundings& around) const { return amplitude_ * compacted(around, p0_); }
+  double left_share(const Surroundings& around) const { return amplitude_ * compacted(around, p0_); }
   double amplitude_, p0_, elastic_;
   bool from_surface_;
 };

@@ -115,8 +115,7 @@ std::vector<EffectForm> slope_weakening_forms() {
        .form = "bearing",
        .equation = "k times 1 - a sin(i)",
        .source = "stated here: a line; Meyerhof 1957, Proc. 4th ICSMFE 1:384, has charts of a foundation's bearing "
-                 "capacity on "
-                 "slopes",
+                 "capacity on slopes",
        .parameters = {{"a", "-", 0.5, 0.0, 3.0, "relative loss of stiffness over sin(i)"}},
        .make = maker<Bearing>()},
   };

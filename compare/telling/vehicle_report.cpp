@@ -65,13 +65,19 @@ Table climbs_table(const VehicleAnswers& answers) {
   return table;
 }
 
+/// The unit in which a power of so many watts is told.
+struct PowerUnit {
+  double watts;
+  const char* prefix;  ///< of W and J
+};
+
+PowerUnit power_unit(double watts) { return std::abs(watts) >= 1000.0 ? PowerUnit{1000.0, "k"} : PowerUnit{1.0, ""}; }
+
 std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
   std::vector<BackedSentence> said;
   if (answers.steady) {
     const SteadyVehicle& v = *answers.steady;
-    const bool kilo = std::abs(v.power.into_wheels) >= 1000.0;
-    const double unit = kilo ? 1000.0 : 1.0;
-    const char* prefix = kilo ? "k" : "";
+    const auto [unit, prefix] = power_unit(v.power.into_wheels);
     if (answers.not_held == TravelLimit::power)
       said.push_back(
           {capital(too_fast_in_words(answers)),
@@ -112,11 +118,10 @@ std::vector<KeyFigure> key_figures_of(const VehicleAnswers& answers) {
   std::vector<KeyFigure> figures;
   if (answers.steady) {
     const SteadyVehicle& v = *answers.steady;
-    const bool kilo = std::abs(v.power.into_wheels) >= 1000.0;
-    const double unit = kilo ? 1000.0 : 1.0;
+    const auto [unit, prefix] = power_unit(v.power.into_wheels);
     figures.push_back({number({v.slip, told_error(answers.errors.slip)}, 100) + " %", "slip of the drive line"});
     figures.push_back(
-        {number({v.power.into_wheels, told_error(answers.errors.into_wheels)}, 1 / unit) + (kilo ? " kW" : " W"),
+        {number({v.power.into_wheels, told_error(answers.errors.into_wheels)}, 1 / unit) + " " + prefix + "W",
          "into the wheels"});
   } else {
     figures.push_back({"It does not travel", "in this condition"});
