@@ -128,11 +128,17 @@ void check_flags(const CalibrateOptions& asked, const CLI::App& command, Contact
     if (!asked.decision.given()) refuse({"--settling-friction"}, hint);
   }
   if (asked.contact_test.measured.given()) {
-    if (kind == ContactKind::grain_tire || asked.contact_test.strength_test != "triaxial")
+    if (kind == ContactKind::grain_tire || asked.contact_test.strength_test == "direct-shear")
       throw InputError(
-          "--curves: the tests are triaxial ones, of sand on sand\n  hint: leave out --contact and --test");
+          "--curves: the tests are triaxial ones or plates, of sand on sand\n  hint: leave out --contact and --test, "
+          "or --test plate");
     refuse({"--strength", "--stresses"}, "beside --curves, whose tests tell both");
     refuse({"--decide"}, "beside --curves\n  hint: calibrate the sand first, then --contact tire --decide");
+  }
+  if (asked.contact_test.strength_test == "plate") {
+    refuse({"--features"}, "on plates\n  hint: it is the triaxial cell's");
+    if (!asked.contact_test.measured.given())
+      throw InputError("--test plate: which plates?\n  hint: --curves plates.csv, a file as soilbin plates reads it");
   }
   if (!asked.beside.empty())
     refuse({"--design", "--runs", "--near", "--within", "--probability", "--output", "--json", "--report", "--markdown",

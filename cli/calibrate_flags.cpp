@@ -48,9 +48,9 @@ std::vector<Target> targets_of(const ContactTestFlags& asked, ContactKind kind, 
   return targets.empty() ? compare::targets_of(soil, kind) : targets;
 }
 
-/// Features of the measured curves; --target puts another value, or error, in place of one.
-std::vector<Target> targets_of(const ContactTestFlags& asked, const std::vector<compare::CompressionCurve>& curves) {
-  std::vector<std::string> known, names;
+/// Features of the measured curves, all or those of --features.
+std::vector<Target> features_of(const ContactTestFlags& asked, const std::vector<compare::CompressionCurve>& curves) {
+  std::vector<std::string> known;
   for (int k = 0; k < compare::curve_features; ++k)
     known.emplace_back(compare::name_of(static_cast<compare::CurveFeature>(k)));
   std::vector<compare::CurveFeature> features;
@@ -59,21 +59,30 @@ std::vector<Target> targets_of(const ContactTestFlags& asked, const std::vector<
     const std::string name = named("--features", text, known).first;
     features.push_back(static_cast<compare::CurveFeature>(std::ranges::find(known, name) - known.begin()));
   }
-  std::vector<Target> targets = compare::targets_of(curves, features);
+  return compare::targets_of(curves, features);
+}
+
+/// With the values, or errors, that --target puts in place of measured ones.
+std::vector<Target> with_own_values(std::vector<Target> targets, const ContactTestFlags& asked) {
+  std::vector<std::string> names;
   for (const Target& target : targets) names.push_back(target.name);
   for (const std::string& text : asked.targets) {
     const auto [name, value] = named("--target", text, names);
     Target& target = *std::ranges::find(targets, name, &Target::name);
     target.measured = read_target(name, value, target.unit, {});
-    if (target.measured.std_error > 0) target.tolerance = 2 * target.measured.std_error;
+    if (target.measured.std_error > 0) target.tolerance = compare::met_within * target.measured.std_error;
   }
   return targets;
 }
 
-std::vector<Factor> factors_of(const ContactTestFlags& asked, ContactKind kind, const GranularSoil& soil,
-                               const std::vector<compare::CompressionCurve>& curves) {
-  std::vector<Factor> factors =
-      curves.empty() ? compare::usual_factors(kind, soil) : compare::usual_factors_of_curves(curves);
+std::vector<Factor> usual_factors_of(const compare::ContactQuestion& question, const GranularSoil& soil) {
+  if (!question.plates.empty()) return compare::usual_factors_of_plates(soil);
+  return question.curves.empty() ? compare::usual_factors(question.kind, soil)
+                                 : compare::usual_factors_of_curves(question.curves);
+}
+
+/// The usual factors, with the bounds of --vary and without those of --keep.
+std::vector<Factor> factors_of(const ContactTestFlags& asked, std::vector<Factor> factors) {
   std::vector<std::string> names;
   for (const Factor& factor : factors) names.push_back(factor.name);
   for (const std::string& text : asked.bounds) {
@@ -110,20 +119,24 @@ Soil ContactTestFlags::soil_with_grains(const Workplace& place) const {
 compare::VirtualTest ContactTestFlags::test(const Soil& of, std::function<void(const dem::Progress&)> progress) const {
   compare::ContactQuestion question;
   question.kind = kind();
-  if (!measured.given()) {
-    question.targets = targets_of(*this, question.kind, of);
+  const std::string test = named("--test", strength_test, {"triaxial", "direct-shear", "plate"}).first;
+  if (test == "plate") {
+    question.test = compare::SandTest::plate;
+    question.plates = measured.plates();
+    question.targets =
+        with_own_values(compare::targets_of(question.plates, compare::points_of(question.plates)), *this);
   } else {
-    question.curves = measured.read();
-    question.targets = targets_of(*this, question.curves);
+    question.test = test == "triaxial" ? compare::SandTest::triaxial : compare::SandTest::direct_shear;
+    if (measured.given()) question.curves = measured.triaxial();
+    question.targets = measured.given() ? with_own_values(features_of(*this, question.curves), *this)
+                                        : targets_of(*this, question.kind, of);
   }
-  question.factors = factors_of(*this, question.kind, grains_of(of), question.curves);
+  question.factors = factors_of(*this, usual_factors_of(question, grains_of(of)));
   question.packings = packings, question.across = across;
   question.settling_friction = read_settling_friction(settling_friction, question.settling_friction);
   question.stresses.clear();
   for (const std::string& stress : split(stresses, ","))
     question.stresses.push_back(read_flag("--stresses", stress, {"kPa", above_zero}));
-  named("--test", strength_test, {"triaxial", "direct-shear"});
-  question.test = strength_test == "triaxial" ? compare::StrengthTest::triaxial : compare::StrengthTest::direct_shear;
   named("--strength", strength, {"peak", "residual"});
   question.strength = strength == "peak" ? compare::Strength::peak : compare::Strength::residual;
   question.how.threads = threads;
@@ -136,12 +149,14 @@ compare::VirtualTest ContactTestFlags::test(const Soil& of, std::function<void(c
 void ContactTestFlags::add_to(CLI::App& command) {
   add_value(command, "soil", soil, "SOIL", "a soil of the library, or a file; with grains")->required();
   add_value(command, "--contact", contact, "sand|tire",
-            "sand on sand, by the triaxial cell or by direct shear; or tire on sand, by the tilting board");
-  add_value(command, "--test", strength_test, "triaxial|direct-shear",
+            "sand on sand, by the triaxial cell, direct shear or plates; or tire on sand, by the tilting board");
+  add_value(command, "--test", strength_test, "triaxial|direct-shear|plate",
             "sand on sand: by which test; take the one that measured the target");
   add_value(command, "--target", targets, "NAME=VALUE[,SD]",
             "what was measured; repeatable; for sand, by default, the soil's own");
-  measured.add_to(command, "measured drained triaxial tests: strength, stiffness and volume change are the targets");
+  measured.add_to(command,
+                  "measured drained triaxial tests: strength, stiffness and volume change are the targets; or, with "
+                  "--test plate, measured plates: their pressures");
   add_value(command, "--features", features, "NAME,NAME,...",
             "--curves: only these of peak_angle, end_angle, half_strain, volume, void_ratio")
       ->needs("--curves");

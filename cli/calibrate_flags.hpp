@@ -1,5 +1,5 @@
-// Flags of `calibrate` that say which contact of a soil is calibrated, by which virtual test: the triaxial cell or the
-// shear box for sand on sand, the tilting board for tire on sand.
+// Flags of `calibrate` that say which contact of a soil is calibrated, by which virtual test: the triaxial cell, the
+// shear box or plates for sand on sand, the tilting board for tire on sand.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -21,7 +21,7 @@ struct ContactTestFlags {
   std::string soil, contact = "sand", strength_test = "triaxial", strength = "peak", settling_friction = "1",
                     stresses = "10kPa,20kPa,40kPa";
   std::string rolling;
-  CompressionFlags measured;
+  MeasuredFlags measured;
   std::string features;
   std::vector<std::string> targets, bounds, kept;
   int packings = 0, threads = 0, across = 16;

@@ -32,7 +32,7 @@ struct ElementTestOptions {
   ElementTestFlags flags;
   PlateFlags plates;
   ConeFlags cone;
-  CompressionFlags measured;
+  MeasuredFlags measured;
 };
 
 struct AskedTest {
@@ -73,7 +73,7 @@ compare::Report triaxial(const AskedTest& asked) {
   using S = dem::TriaxialSettings;
   S settings = strength_settings<S>(asked, {&S::side, &S::height});
   std::vector<compare::CompressionCurve> measured;
-  if (asked.options.measured.given()) measured = asked.options.measured.read();
+  if (asked.options.measured.given()) measured = asked.options.measured.triaxial();
   if (!measured.empty()) settings = compare::pressed_as(measured, settings);
   const dem::TriaxialResult result = dem::triaxial(asked.grains, settings, asked.how, &asked.beds);
   return compare::report_on(result, asked.soil, compare::beside_measured(std::move(measured), result.runs));
@@ -110,12 +110,20 @@ compare::Report repose(const AskedTest& asked) {
 
 compare::Report plate(const AskedTest& asked) {
   dem::PlateSettings s = asked.options.plates.plates(asked.grains);
+  std::vector<compare::MeasuredPlate> measured;
+  std::vector<compare::PlatePoint> points;
+  if (asked.options.measured.given()) {
+    measured = asked.options.measured.plates();
+    points = compare::points_of(measured, asked.options.plates.deepest());
+    s = compare::pressed_as(points, asked.grains, s);
+  }
   s.bed.width *= asked.options.flags.size, s.bed.depth *= asked.options.flags.size;
   const auto run = [&](const dem::SpecimenSettings& specimen) {
     s.bed.specimen = specimen;
     return dem::plate_sinkage(asked.grains, s, asked.how, &asked.beds);
   };
-  return compare::report_on(each_packing<dem::PlateRun>(asked, run), asked.soil);
+  const std::vector<dem::PlateRun> runs = each_packing<dem::PlateRun>(asked, run);
+  return compare::report_on(runs, asked.soil, compare::beside_measured(std::move(measured), points, runs));
 }
 
 compare::Report cone(const AskedTest& asked) {
@@ -151,7 +159,7 @@ constexpr Test tests[] = {{.name = "direct-shear", .run = direct_shear, .takes_s
                           {.name = "tilting-board", .run = tilting_board, .packings = 3},
                           {.name = "repose", .run = repose, .packings = 3},
                           {.name = "triaxial", .run = triaxial, .takes_specimens = true, .takes_curves = true},
-                          {.name = "plate", .run = plate, .takes_plates = true},
+                          {.name = "plate", .run = plate, .takes_plates = true, .takes_curves = true},
                           {.name = "cone", .run = cone, .takes_cone = true},
                           {.name = "shear", .run = shear, .takes_stresses = true}};
 
@@ -179,6 +187,8 @@ void check_flags(const ElementTestOptions& options, const Test& asked) {
   only("--curves", options.measured.given(), &Test::takes_curves);
   if (options.measured.given() && !options.stresses.empty())
     throw InputError("--stress has no effect beside --curves, whose tests tell it\n  hint: leave out one of the two");
+  if (options.measured.given() && !options.plates.diameters.empty())
+    throw InputError("--plate has no effect beside --curves, whose tests tell it\n  hint: leave out one of the two");
   only("--inertial", options.inertial != 0, &Test::takes_specimens);
   only("--ledger", options.ledger, &Test::takes_specimens);
   only("--settling-friction", !options.flags.settling_friction.empty(), &Test::takes_settling);
@@ -224,8 +234,8 @@ void add_element_test(CLI::App& app, Session& session) {
   options->plates.add_to(*command);
   options->cone.add_to(*command);
   options->measured.add_to(*command,
-                           "triaxial: measured drained tests, at whose pressures the cell presses; told beside "
-                           "them");
+                           "triaxial, plate: measured tests, whose pressures the cell, or whose plates the bed gets; "
+                           "told beside the grains");
   command->footer("Example: soilbin element-test direct-shear paper-sand --stress 10kPa --stress 40kPa --plot box.svg");
   command->callback([=, &session] { session.action = [=, &session] { return element_test(*options, session); }; });
 }

@@ -56,12 +56,23 @@ compare::Doubts ElementTestFlags::doubts(GranularSoil soil) const {
   return compare::grain_value_doubts(soil);
 }
 
-void CompressionFlags::add_to(CLI::App& command, const char* meaning) {
+void MeasuredFlags::add_to(CLI::App& command, const char* meaning) {
   add_value(command, "--curves", file, "FILE.csv", meaning);
-  add_value(command, "--tests", tests, "NAME,NAME,...", "--curves: only these tests of the file")->needs("--curves");
+  add_value(command, "--tests", tests, "NAME,NAME,...", "--curves: only these triaxial tests of the file")
+      ->needs("--curves");
+  add_value(command, "--only", only, "COLUMN=VALUE", "--curves: only plates of this value; may be given again")
+      ->allow_extra_args(false)
+      ->needs("--curves");
 }
 
-std::vector<compare::CompressionCurve> CompressionFlags::read() const {
+std::vector<compare::MeasuredPlate> MeasuredFlags::plates() const {
+  if (!tests.empty())
+    throw InputError("--tests is of triaxial tests\n  hint: plates are chosen by --only COLUMN=VALUE");
+  return compare::read_plates(read_source_text(file, compare::largest_plate_csv), column_values("--only", only));
+}
+
+std::vector<compare::CompressionCurve> MeasuredFlags::triaxial() const {
+  if (!only.empty()) throw InputError("--only is of plates\n  hint: triaxial tests are chosen by --tests NAME,NAME");
   std::vector<std::string> names = split(tests, ",");
   std::erase(names, "");
   return compare::read_compression(read_source_text(file, largest_csv), names);
@@ -90,14 +101,18 @@ double tool_in_grains(const char* flag, const std::string& text, const GranularS
 }  // namespace
 
 dem::PlateSettings PlateFlags::plates(const GranularSoil& soil) const {
-  const Measure length{"mm", above_zero};
   dem::PlateSettings out;
   if (!diameters.empty()) out.diameters.clear();
   for (const std::string& flag : diameters)
-    for (const std::string& text : several_values("--plate", flag, length))
+    for (const std::string& text : several_values("--plate", flag, {"mm", above_zero}))
       out.diameters.push_back(tool_in_grains("--plate", text, soil));
-  if (!sinkage.empty()) out.sinkage = read_flag("--plate-sinkage", sinkage, length) / mean_diameter(soil);
+  if (const auto depth = deepest()) out.sinkage = *depth / mean_diameter(soil);
   return out;
+}
+
+std::optional<double> PlateFlags::deepest() const {
+  if (sinkage.empty()) return std::nullopt;
+  return read_flag("--plate-sinkage", sinkage, {"mm", above_zero});
 }
 
 void ConeFlags::add_to(CLI::App& command) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "compare/doubts/doubt.hpp"
 #include "compare/experiments/compression_curves.hpp"
+#include "compare/experiments/plate_curves.hpp"
 #include "dem/element_tests/bevameter_tests.hpp"
 #include "scenario/soil.hpp"
 
@@ -29,14 +31,17 @@ struct ElementTestFlags {
   compare::Doubts doubts(GranularSoil soil) const;
 };
 
-/// Measured triaxial tests, --curves and --tests.
-struct CompressionFlags {
+/// Measured tests of the laboratory: --curves, and which of the file's by --tests or --only.
+struct MeasuredFlags {
   std::string file, tests;
+  std::vector<std::string> only;
 
   void add_to(CLI::App& command, const char* meaning);
   bool given() const { return !file.empty(); }
-  /// Throws InputError with file, line and hint.
-  std::vector<compare::CompressionCurve> read() const;
+
+  // Each throws InputError with file, line and hint, also for the other one's flag.
+  std::vector<compare::CompressionCurve> triaxial() const;
+  std::vector<compare::MeasuredPlate> plates() const;
 };
 
 /// Plates of the size that a field test has, --plate and --plate-sinkage; without them they are sized in grains.
@@ -45,8 +50,9 @@ struct PlateFlags {
   std::string sinkage;
 
   void add_to(CLI::App& command);
-  /// Throws InputError that names the flag.
+  // Each throws InputError that names the flag.
   dem::PlateSettings plates(const GranularSoil& soil) const;
+  std::optional<double> deepest() const;  ///< --plate-sinkage [m]; none: not given
 };
 
 /// The cone of element-test cone, --cone and --cone-depth; without them it is sized in grains.

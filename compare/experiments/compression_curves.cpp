@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <numeric>
@@ -30,7 +31,6 @@ constexpr std::array<FeatureTraits, curve_features> traits = {{
     {"volume", "%", 0.005, 0.0},
     {"void_ratio", "-", 0.02, 0.0},
 }};
-constexpr double met_within = 2.0;  // errors
 
 const FeatureTraits& traits_of(CurveFeature feature) { return traits[static_cast<std::size_t>(feature)]; }
 
@@ -281,8 +281,9 @@ Estimate simulated(CurveFeature feature, const CompressionCurve& test, const std
   return values.size() > 1 ? mean_of(values) : Estimate{values.front(), 0.0};
 }
 
-MeasuredBeside beside_measured(std::vector<CompressionCurve> tests, const std::vector<dem::TriaxialRun>& runs) {
-  MeasuredBeside beside{std::move(tests), {}};
+MeasuredBeside<CompressionCurve> beside_measured(std::vector<CompressionCurve> tests,
+                                                 const std::vector<dem::TriaxialRun>& runs) {
+  MeasuredBeside<CompressionCurve> beside{std::move(tests), {}};
   for (const CompressionCurve& test : beside.tests)
     for (int k = 0; k < curve_features; ++k) {
       const auto feature = static_cast<CurveFeature>(k);

@@ -5,13 +5,12 @@
 //   const double half = *feature_of(tests[0], CurveFeature::half_strain);  // strain at half of the peak [-]
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "compare/calibrate/experiment_store.hpp"
+#include "compare/experiments/measured_beside.hpp"
 #include "dem/element_tests/triaxial.hpp"
 #include "scenario/source_text.hpp"
 
@@ -66,29 +65,13 @@ dem::TriaxialSettings pressed_as(std::span<const CompressionCurve> tests, dem::T
 /// The feature in the runs at the test's pressure, as far as it goes: mean over packings and its error, none of one.
 Estimate simulated(CurveFeature feature, const CompressionCurve& test, const std::vector<dem::TriaxialRun>& runs);
 
-/// A feature of a measured test beside that of grains [SI].
-struct FeatureBeside {
-  Target measured;
-  Estimate grains;
-
-  /// Grains less measured, over the error of both.
-  double off() const {
-    return (grains.value - measured.measured.value) / std::hypot(measured.measured.std_error, grains.std_error);
-  }
-};
-
-/// Measured tests beside simulated runs at their pressures.
-struct MeasuredBeside {
-  std::vector<CompressionCurve> tests;
-  std::vector<FeatureBeside> features;
-};
-
 /// Each test's features as targets, "peak_angle.TX15", with an error that one careful test of the laboratory has
 /// (chosen): 0.5 deg, a quarter of the strain at half of the peak, 0.5 % of volume, 0.02 of void ratio. A target counts
 /// as met within two of these errors. `features`: those that are wanted; empty: all that are measured.
 std::vector<Target> targets_of(std::span<const CompressionCurve> tests, const std::vector<CurveFeature>& features = {});
 
 /// Each test's features beside those of the runs, one of which at least is at its pressure.
-MeasuredBeside beside_measured(std::vector<CompressionCurve> tests, const std::vector<dem::TriaxialRun>& runs);
+MeasuredBeside<CompressionCurve> beside_measured(std::vector<CompressionCurve> tests,
+                                                 const std::vector<dem::TriaxialRun>& runs);
 
 }  // namespace soilbin::compare

@@ -249,6 +249,43 @@ VirtualTest curve_test(const ElementExperiment& experiment, const ContactQuestio
   return test;
 }
 
+/// Sand on sand: plates on a bed, pressed as measured ones were. The targets are pressures at points of these.
+VirtualTest plate_test(const ElementExperiment& experiment, const ContactQuestion& question) {
+  const std::vector<PlatePoint> points = points_of(question.plates);
+  const std::vector<Target> all = targets_of(question.plates, points);
+  dem::PlateSettings settings = pressed_as(points, experiment.soil, {});
+  settings.bed.specimen.settling_friction = question.settling_friction;
+  static_cast<dem::LawFlags&>(settings.bed.specimen.laws) = dem::laws_of(experiment.soil);
+  const int packings = question.packings > 0 ? question.packings : 1;
+  Identity identity("plates");
+  identity.add(experiment, ContactKind::grain_grain).add(settings.bed.specimen.laws);
+  identity.add("settling_friction", question.settling_friction).add("packings", packings);
+  identity.add("width", settings.bed.width).add("depth", settings.bed.depth).add("speed", settings.speed);
+  for (const double diameter : settings.diameters) identity.add("plate", diameter);
+  identity.add("sinkage", settings.sinkage).add("samples", settings.samples);
+  identity.add("gravity", dem::gravity_on(experiment.soil));
+  VirtualTest test = test_of(experiment, identity.text());
+  test.run = [=](const VectorXd& values, std::uint64_t seed) {
+    return answered([&] {
+      const GranularSoil soil = with_values(experiment, ContactKind::grain_grain, values);
+      const auto settling = std::ranges::find(experiment.factors, settling_friction_factor, &Factor::name);
+      std::vector<dem::PlateRun> runs;
+      for (int k = 0; k < packings; ++k) {
+        dem::PlateSettings own = settings;
+        own.bed.specimen.packing = first_packing(seed, packings) + static_cast<std::uint64_t>(k);
+        if (settling != experiment.factors.end())
+          own.bed.specimen.settling_friction = values[settling - experiment.factors.begin()];
+        for (dem::PlateRun& run : dem::plate_sinkage(soil, own, experiment.how)) runs.push_back(std::move(run));
+      }
+      std::vector<Estimate> answers;
+      for (const Target& target : experiment.targets)
+        answers.push_back(simulated(points[std::ranges::find(all, target.name, &Target::name) - all.begin()], runs));
+      return answers;
+    });
+  };
+  return test;
+}
+
 }  // namespace
 
 VirtualTest contact_test(const Soil& soil, const ContactQuestion& question) {
@@ -262,7 +299,8 @@ VirtualTest contact_test(const Soil& soil, const ContactQuestion& question) {
     return tilting_board_test(experiment, settings, question.packings > 0 ? question.packings : 4);
   }
   if (!question.curves.empty()) return curve_test(experiment, question);
-  if (question.test == StrengthTest::triaxial)
+  if (question.test == SandTest::plate) return plate_test(experiment, question);
+  if (question.test == SandTest::triaxial)
     return strength_test("triaxial", experiment, specimen_settings<dem::TriaxialSettings>(granular, question),
                          question.strength);
   return strength_test("direct shear", experiment, specimen_settings<dem::DirectShearSettings>(granular, question),
@@ -310,6 +348,12 @@ std::vector<Factor> usual_factors_of_curves(const std::vector<CompressionCurve>&
   std::vector<Factor> factors{
       {"sliding_friction", 0.2, 0.9, "-"}, {"rolling_friction", 0.0, 0.6, "-"}, {"youngs_modulus", 2e9, 40e9, "GPa"}};
   for (const auto& alike : by_density(tests)) factors.push_back({settling_factor_of(tests, alike), 0.0, 1.0, "-"});
+  return factors;
+}
+
+std::vector<Factor> usual_factors_of_plates(const GranularSoil& soil) {
+  std::vector<Factor> factors = usual_factors(ContactKind::grain_grain, soil);
+  factors.push_back({settling_friction_factor, 0.0, 1.0, "-"});
   return factors;
 }
 

@@ -10,6 +10,7 @@
 #include "compare/calibrate/calibration.hpp"
 #include "compare/calibrate/contact_values.hpp"
 #include "compare/experiments/compression_curves.hpp"
+#include "compare/experiments/plate_curves.hpp"
 #include "dem/element_tests/direct_shear.hpp"
 #include "dem/element_tests/tilting_board.hpp"
 #include "dem/element_tests/triaxial.hpp"
@@ -20,8 +21,8 @@ namespace soilbin::compare {
 /// Which strength of the shear box or the cell counts.
 enum class Strength { peak, residual };
 
-/// The test that gives sand on sand its strength; it should be the laboratory's.
-enum class StrengthTest { triaxial, direct_shear };
+/// The test of sand on sand; it should be the one that measured the targets.
+enum class SandTest { triaxial, direct_shear, plate };
 
 /// The settings that both tests share.
 struct ElementExperiment {
@@ -36,7 +37,7 @@ struct ContactQuestion {
   ContactKind kind = ContactKind::grain_grain;
   std::vector<Factor> factors;
   std::vector<Target> targets;
-  StrengthTest test = StrengthTest::triaxial;      ///< of sand on sand
+  SandTest test = SandTest::triaxial;              ///< of sand on sand
   int packings = 0;                                ///< samples an experiment; 0: cell and shear box 1, board 4
   Strength strength = Strength::peak;              ///< of cell and shear box
   std::vector<double> stresses{10e3, 20e3, 40e3};  ///< confining in the cell, normal in the shear box [Pa]
@@ -44,13 +45,14 @@ struct ContactQuestion {
   /// Measured tests that the targets are features of: the cell then presses at their pressures, as far as they go, in
   /// place of `stresses`. Triaxial, sand on sand.
   std::vector<CompressionCurve> curves{};
-  int across = 16;  ///< grains along a side of the board
+  std::vector<MeasuredPlate> plates{};  ///< of SandTest::plate: pressures at points_of these are the targets
+  int across = 16;                      ///< grains along a side of the board
   dem::WorkOptions how;
 };
 
 /// Sand on sand by the triaxial cell or the shear box, sand on tire by the tilting board, with the soil's own rolling
-/// resistance. With curves the factors may also be youngs_modulus and settling_friction. Throws InputError for a soil
-/// without grains and for settings that make no sense.
+/// resistance. With curves the factors may also be youngs_modulus and settling_friction, with plates settling_friction.
+/// Throws InputError for a soil without grains and for settings that make no sense.
 VirtualTest contact_test(const Soil& soil, const ContactQuestion& question);
 
 /// The targets that a soil itself tells of a contact: phi and c for sand on sand. Throws InputError where it tells
@@ -66,5 +68,8 @@ std::vector<Factor> usual_factors(ContactKind kind, const GranularSoil& soil);
 /// What is varied against measured curves: sliding and rolling friction, youngs_modulus, and how the specimens settle:
 /// settling_friction or, of tests of several densities (by_density), settling_friction.TX13 of each, by its first test.
 std::vector<Factor> usual_factors_of_curves(const std::vector<CompressionCurve>& tests);
+
+/// What is varied against measured plates: a contact's numbers, and how the bed settles.
+std::vector<Factor> usual_factors_of_plates(const GranularSoil& soil);
 
 }  // namespace soilbin::compare

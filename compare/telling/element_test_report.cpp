@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "compare/experiments/compression_curves.hpp"
+#include "compare/experiments/plate_curves.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/telling/reports.hpp"
@@ -77,12 +78,26 @@ void add_line(Plot& plot, std::string label, const Curve& curve, const X& x, con
 }
 
 /// A measured curve, dashed.
-void add_measured(Plot& plot, std::string label, const std::vector<double>& strain, const std::vector<double>& values,
-                  double factor) {
+void add_measured(Plot& plot, std::string label, const std::vector<double>& x, double x_factor,
+                  const std::vector<double>& y, double y_factor) {
   Series series{.label = std::move(label), .color = static_cast<int>(plot.series.size()), .dash = 1};
-  for (std::size_t k = 0; k < strain.size(); ++k)
-    series.x.push_back(100 * strain[k]), series.y.push_back(factor * values[k]);
+  for (std::size_t k = 0; k < x.size(); ++k) series.x.push_back(x_factor * x[k]), series.y.push_back(y_factor * y[k]);
   plot.series.push_back(std::move(series));
+}
+
+/// The table of features beside those of grains, and into `values` an entry each.
+Table told_beside(const std::vector<FeatureBeside>& features, Json& values) {
+  Table table{"", {"feature", "unit", "measured", "grains", "off by [errors]"}};
+  for (const FeatureBeside& one : features) {
+    const double per_si = per_unit(one.measured.unit);
+    table.add({one.measured.name, one.measured.unit, number(one.measured.measured, per_si), number(one.grains, per_si),
+               number(one.off(), 2)});
+    values["beside"].push_back({{"target", one.measured.name},
+                                {"unit", one.measured.unit},
+                                {"measured", estimate_json(one.measured.measured)},
+                                {"grains", estimate_json(one.grains)}});
+  }
+  return table;
 }
 
 /// Of a test; `table` is empty where it has one run, which the sentences tell.
@@ -146,7 +161,8 @@ Report report_on(const dem::DirectShearResult& result, const std::string& soil) 
                    {"Direct shear", {std::move(shear), std::move(lift)}});
 }
 
-Report report_on(const dem::TriaxialResult& result, const std::string& soil, const MeasuredBeside& beside) {
+Report report_on(const dem::TriaxialResult& result, const std::string& soil,
+                 const MeasuredBeside<CompressionCurve>& beside) {
   using Sample = dem::TriaxialSample;
   Table table{"",
               {"stress [kPa]", "packing", "void ratio", "peak [deg]", "at strain [%]", "dilation [deg]",
@@ -187,20 +203,11 @@ Report report_on(const dem::TriaxialResult& result, const std::string& soil, con
               {"peak", json_of(result.peak)},
               {"residual", json_of(result.residual)},
               {"runs", std::move(runs)}};
-  Table features{"", {"feature", "unit", "measured", "grains", "off by [errors]"}};
-  for (const FeatureBeside& one : beside.features) {
-    const double per_si = per_unit(one.measured.unit);
-    features.add({one.measured.name, one.measured.unit, number(one.measured.measured, per_si),
-                  number(one.grains, per_si), number(one.off(), 2)});
-    values["beside"].push_back({{"target", one.measured.name},
-                                {"unit", one.measured.unit},
-                                {"measured", estimate_json(one.measured.measured)},
-                                {"grains", estimate_json(one.grains)}});
-  }
+  Table features = told_beside(beside.features, values);
   for (const CompressionCurve& test : beside.tests) {
     const std::string label = fmt::format("{}, {} kPa, measured", test.test, number(test.confining / 1e3));
-    add_measured(stress, label, test.strain, test.sine, 1);
-    if (!test.volumetric.empty()) add_measured(volume, label, test.strain, test.volumetric, 100);
+    add_measured(stress, label, test.strain, 100, test.sine, 1);
+    if (!test.volumetric.empty()) add_measured(volume, label, test.strain, 100, test.volumetric, 100);
   }
   Report report = report_of("triaxial", soil, std::move(table), std::move(sentences), values,
                             {"Triaxial compression", {std::move(stress), std::move(volume)}});
@@ -352,7 +359,8 @@ Report report_on(const std::vector<dem::AngleOfReposeResult>& heaps, const std::
                    {"Angle of repose", {std::move(plot)}});
 }
 
-Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil) {
+Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil,
+                 const MeasuredBeside<MeasuredPlate>& beside) {
   using Sample = dem::PlateSample;
   const bool several = runs.front().packing != runs.back().packing;
   Table table{"", {"plate [mm]", "packing", "grains", "void ratio", "sinkage [mm]", "pressure there [kPa]"}};
@@ -374,8 +382,14 @@ Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil
   }
   std::vector<std::string> sentences = told_means(means_of(runs, &dem::PlateRun::diameter, pressure_at_end),
                                                   "At the deepest, plate of", "mm", 1e3, "diameter", "pressure", means);
-  return report_of("plate", soil, std::move(table), std::move(sentences),
-                   {{"runs", std::move(all)}, {"at_end", std::move(means)}}, {"Plate sinkage", {std::move(plot)}});
+  Json values{{"runs", std::move(all)}, {"at_end", std::move(means)}};
+  Table features = told_beside(beside.features, values);
+  for (const MeasuredPlate& test : beside.tests)
+    add_measured(plot, test.test + ", measured", test.curve.sinkage, 1e3, test.curve.pressure, 1e-3);
+  Report report =
+      report_of("plate", soil, std::move(table), std::move(sentences), values, {"Plate sinkage", {std::move(plot)}});
+  if (!features.rows.empty()) report.add("Beside measured tests", std::move(features));
+  return report;
 }
 
 Report report_on(const std::vector<dem::ConeRun>& runs, const std::string& soil, double grain) {

@@ -40,16 +40,18 @@ struct BevameterFit;
 struct BevameterReadings;
 struct Campaign;
 struct CompiledC;
+struct CompressionCurve;
 struct DrivenAnswers;
 struct DriveSides;
 struct FailureMapResult;
 struct ForceTable;
 struct GoMap;
 struct Finding;
+template <class Test>
+struct MeasuredBeside;
 struct MeasuredPlate;
 struct MeasuredPlatesFit;
 struct PlateGroups;
-struct MeasuredBeside;
 struct MeasuredShear;
 struct MeasuredShearFit;
 struct ModelAnswers;
@@ -133,12 +135,15 @@ Report report_on(const MeasuredShearFit& fit, std::span<const MeasuredShear> tes
 Report report_on(const BevameterFit& fit, const BevameterReadings& readings, const Soil& soil, int packings);
 
 /// Element tests: their runs, what they give, curves; soilbin-element-test/1. `soil`: the name of the soil whose grains
-/// were tested. A list: a run a packing, or packing by packing; one at least.
+/// were tested. A list: a run a packing, or packing by packing; one at least. `beside`: measured tests, where there
+/// are.
 Report report_on(const dem::DirectShearResult& result, const std::string& soil);
-Report report_on(const dem::TriaxialResult& result, const std::string& soil, const MeasuredBeside& beside);
+Report report_on(const dem::TriaxialResult& result, const std::string& soil,
+                 const MeasuredBeside<CompressionCurve>& beside);
 Report report_on(const std::vector<dem::TiltingBoardResult>& boards, const std::string& soil);
 Report report_on(const std::vector<dem::AngleOfReposeResult>& heaps, const std::string& soil);
-Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil);
+Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil,
+                 const MeasuredBeside<MeasuredPlate>& beside);
 /// `grain`: mean diameter of the soil's grains [m].
 Report report_on(const std::vector<dem::ConeRun>& runs, const std::string& soil, double grain);
 Report report_on(const std::vector<dem::AnnulusRun>& runs, const std::string& soil);

@@ -18,8 +18,9 @@ void check(const PlateSettings& s) {
   const Requirements require("plate sinkage");
   require(!s.diameters.empty(), "at least one plate");
   for (const double diameter : s.diameters)
-    require(diameter >= narrowest_tool,
-            fmt::format("a plate of {:.3g} grains is too narrow: at least {:.3g}", diameter, narrowest_tool));
+    require(diameter >= narrowest_tool, fmt::format("a plate of {:.3g} grains is too narrow: at least {:.3g}\n  hint: "
+                                                    "make radius_min and radius_max smaller, which keeps the strength",
+                                                    diameter, narrowest_tool));
   require(s.sinkage > 0 && s.speed >= 1e-6 && s.speed <= 1, "sinkage above 0, speed in 1e-6 .. 1");
   require(s.samples >= 10, "at least 10 samples");
 }

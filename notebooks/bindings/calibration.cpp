@@ -283,7 +283,7 @@ void bind_calibration(py::module_& module) {
     question.targets = targets_of(soil, question.kind, asked.targets);
     if (asked.test != "triaxial" && asked.test != "direct-shear")
       throw InputError("test: 'triaxial' or 'direct-shear'");
-    question.test = asked.test == "triaxial" ? compare::StrengthTest::triaxial : compare::StrengthTest::direct_shear;
+    question.test = asked.test == "triaxial" ? compare::SandTest::triaxial : compare::SandTest::direct_shear;
     if (asked.strength != "peak" && asked.strength != "residual") throw InputError("strength: 'peak' or 'residual'");
     question.strength = asked.strength == "peak" ? compare::Strength::peak : compare::Strength::residual;
     question.how.threads = threads;
