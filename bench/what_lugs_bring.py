@@ -3,9 +3,9 @@
     PYTHONPATH=build/release/python /usr/bin/python3 bench/what_lugs_bring.py [LUGGED.json SMOOTH.json]
 
 Reads the records of heavy-lugged-incline and heavy-smooth-incline (cases/studies/recorded) and prints Markdown tables,
-a row a condition that both have on one bed sample; then, of the conditions that heavy-lugged-17mm and heavy-smooth-17mm
-have too, a row a grain size. Both tires run on one bed at one slip of the tread base, so that
-what beds differ by cancels. "Infinitely fine" is by the twins with grains 1.4 times as large, D + (D - D_coarser)/0.4. ± is
+a row a condition that both have on one bed sample; with half of the lugs beside them (heavy-half-lugged-incline); then,
+of the conditions that heavy-lugged-17mm and heavy-smooth-17mm have too, a row a grain size. All tires run on one bed at
+one slip of the tread base, so that what beds differ by cancels. "Infinitely fine" is by the twins with grains 1.4 times as large, D + (D - D_coarser)/0.4. ± is
 one standard error of the runs' fluctuations.
 """
 import argparse
@@ -21,7 +21,8 @@ from soilbin.bekker_wong import BekkerWong
 FORMS = ("passive_blade", "shear_radius_own_slip", "side_factors", "free_blade", "level_blade")
 RECORDED = Path(__file__).parent.parent / "cases/studies/recorded"
 PAIRS = [[RECORDED / f"heavy-{tire}-{grains}.json" for tire in ("lugged", "smooth")] for grains in ("incline", "17mm")]
-LUG_HEIGHT = 0.045
+HALF = RECORDED / "heavy-half-lugged-incline.json"
+LUG_HEIGHT, RADIUS = 0.045, 0.7006  # [m], the radius to the tread base
 CONDITION = ("load", "slip", "speed", "longitudinal_incline", "transverse_incline", "yaw")
 
 
@@ -100,6 +101,38 @@ def print_by_grain_size(pairs):
         print(f"{slip} | 0, by the line | | {told} | | |")
 
 
+def pull_by_number(key):
+    """What half of the lugs and all of them add to the pull by passive_blade and by rft, in % of the load."""
+    at = soilbin.OperatingCondition(**dict(zip(CONDITION, key[1:])))
+    smooth, *others = (soilbin.find_case(f"heavy-{tire}-incline").scenario for tire in ("smooth", "half-lugged", "lugged"))
+    told = []
+    for model, effects in ((BekkerWong(patch=False), ["lug_thrust:passive_blade"]), (soilbin.ResistiveForce(), [])):
+        bare = (model, soilbin.Scenario(smooth.tire, smooth.soil))
+        added = (said((model, soilbin.Scenario(one.tire, one.soil, effects=effects)), bare, at)[0] for one in others)
+        told.append(", ".join(f"{pull:+.1f}" for pull in added))
+    return " | ".join(told)
+
+
+def print_by_number(smooth, half, lugged):
+    """Prints what the tire gives without lugs, with half of them and with all, from records of one bed."""
+    records = [answers(record) for record in (smooth, half, lugged)]
+    shared = set.intersection(*(set(usual) for usual, _ in records))
+    print("\n| uphill | slip | pull of none, half, all [% of the load] | half bring, infinitely fine grains "
+          "| torque [% of load times radius] | sinkage [mm] | half, all add by `passive_blade` | by `rft` |\n"
+          + "|---" * 8 + "|")
+    for key in sorted(shared, key=lambda key: (key[0], key[4], key[2])):
+        runs, coarser = [one[key] for one, _ in records], [one.get(key) for _, one in records]
+        fine = ""
+        if coarser[0] and coarser[1]:
+            bring = infinitely_fine(*(change(pair[1], pair[0], "drawbar_pull") for pair in (runs, coarser)))
+            fine = "{:+.1f} ± {:.1f}".format(*(100 * part / key[1] for part in bring))
+        cells = []
+        for name, per_si in (("drawbar_pull", 100 / key[1]), ("torque", 100 / (key[1] * RADIUS)), ("sinkage", 1e3)):
+            error = max(per_si * run["std_error"][name] for run in runs)
+            cells.append(", ".join(f"{per_si * run[name]:.1f}" for run in runs) + f" ± {error:.1f}")
+        print(f"{place(key)}| {cells[0]} | {fine} | {cells[1]} | {cells[2]} | {pull_by_number(key)} |")
+
+
 def main():
     """Prints what grains say, and what the quick models say beside it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -137,6 +170,7 @@ def main():
         at = soilbin.OperatingCondition(**dict(zip(CONDITION, key[1:])))
         print(f"{place(key)}| {gain[key]} | "
               + " | ".join("{:+.1f}, {:+.0f} %".format(*said(*pair, at)) for pair in models.values()) + " |")
+    print_by_number(records[1], HALF, records[0])
     print_by_grain_size([records, PAIRS[1]])
 
 
