@@ -137,21 +137,7 @@ std::string error_sentence(const FailureMapResult& result) {
                      100 * result.map.held_out.rms());
 }
 
-std::string coordinates_sentence(const FailureMapResult& result) {
-  if (result.coordinates.empty()) return "";
-  std::string text = "Left out one at a time, a map in";
-  for (const Coordinates& c : result.coordinates)
-    text +=
-        fmt::format("{} ({}) is off by {:.1f} %", &c == result.coordinates.data() ? "" : ",", c.name, 100 * c.held_out);
-  const double plain = result.coordinates.front().held_out;
-  const auto best = std::ranges::min_element(result.coordinates,
-                                             [](const auto& a, const auto& b) { return a.held_out < b.held_out; });
-  if (best == result.coordinates.begin()) return text + ": no group of these does better than the numbers as set.";
-  return text + fmt::format(": ({}) does better than the numbers as set, by {:.0f} % of their error.", best->name,
-                            100 * (1 - best->held_out / plain));
-}
-
-/// The same for people: what was tried, and whether it is of use.
+/// Which ratios without units were tried, and whether they serve better.
 std::string coordinates_in_words(const FailureMapResult& result) {
   if (result.coordinates.empty()) return "";
   const double plain = result.coordinates.front().held_out;
@@ -311,23 +297,6 @@ std::string decided_sentence(const FailureMapResult& result) {
       100 * result.question.tolerance, 100 * shares.agree, 100 * shares.differ, 100 * shares.undecided);
 }
 
-/// Sentences, the most important first: how much of the box disagrees and to which side, where the models agree, how
-/// well the map knows, what dimensionless groups do, what fresh conditions showed.
-std::vector<std::string> map_summary(const FailureMapResult& result) {
-  std::vector<std::string> text = {rows_sentence(result)};
-  text.push_back(fmt::format("The error exceeds {:.3g} % of the load in {:.0f} % of the range by the best estimate.",
-                             100 * result.question.tolerance, 100 * result.shares.beyond));
-  text.push_back(decided_sentence(result));
-  for (const AgreementClause& clause : result.clauses)
-    text.push_back(fmt::format("{}: within {:.3g} % of the load {}.", result.question.name,
-                               100 * result.question.tolerance, box_in_words(result.question, clause)));
-  if (result.clauses.empty()) text.push_back(without_a_box(result));
-  text.push_back(error_sentence(result) + " " + scatter_sentence(result));
-  for (const std::string& more : {coordinates_sentence(result), checks_sentence(result)})
-    if (!more.empty()) text.push_back(more);
-  return text;
-}
-
 /// Where the quick estimate may be trusted; where not and to which side it errs; how sure that is.
 /// `grains`: how far off the grains are themselves, where that is not told before.
 std::vector<std::pair<std::string, std::string>> trust_in_words(const FailureMapResult& result,
@@ -374,6 +343,14 @@ std::vector<std::string> details(const FailureMapResult& result) {
   std::vector<std::string> text = {scatter_sentence(result)};
   if (std::string groups = coordinates_in_words(result); !groups.empty()) text.push_back(std::move(groups));
   return text;
+}
+
+/// What a terminal says, for JSON.
+std::vector<std::string> in_sentences(const FailureMapResult& result) {
+  std::vector<std::string> all;
+  for (auto& [about, text] : trust_in_words(result, grains_sentence(result))) all.push_back(std::move(text));
+  for (std::string& text : details(result)) all.push_back(std::move(text));
+  return all;
 }
 
 Table rows_table(const FailureMapResult& result) {
@@ -449,7 +426,7 @@ Json failure_map_json(const FailureMapResult& result) {
   const MapShares& shares = result.shares;
   Json document = {
       {"format", "soilbin-failure-map/1"},      {"incline", name_of(result.asked.incline)},
-      {"tolerance", result.question.tolerance}, {"summary", map_summary(result)},
+      {"tolerance", result.question.tolerance}, {"summary", in_sentences(result)},
       {"share_beyond", shares.beyond},          {"cross_validated_error", finite(result.map.held_out.rms())}};
   document["of"] = word_of(result.asked.of), document["against"] = word_of(result.asked.against);
   document["shares"] = {{"agree", shares.agree}, {"differ", shares.differ}, {"undecided", shares.undecided}};
