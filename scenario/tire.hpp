@@ -95,7 +95,7 @@ std::string why_no_gaps(const Tire& tire);
 
 /// "rover-wheel (r 90 mm, b 110 mm, smooth)".
 std::string in_words(const Tire& tire);
-/// The same with a remark before the closing bracket.
+/// The tire in words with a remark before the closing bracket.
 std::string in_words(const Tire& tire, std::string_view remark);
 
 }  // namespace soilbin

@@ -23,7 +23,7 @@ bool is_prime(int q) {
   return q >= 2;
 }
 
-/// Of polynomials over GF(2), modulo x^2 + x + 1.
+/// Product of two polynomials over GF(2), modulo x^2 + x + 1.
 int product_in_gf4(int a, int b) {
   int product = ((b & 1) ? a : 0) ^ ((b & 2) ? a << 1 : 0);
   if (product & 4) product ^= 0b111;

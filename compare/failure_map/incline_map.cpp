@@ -264,7 +264,7 @@ std::vector<AgreementClause> agreements(const FailureQuestion& question, Failure
   return clauses;
 }
 
-/// Of both models at the conditions that were run, with the highest lugs.
+/// Doubts of both models at the conditions that were run, with the highest lugs.
 Doubts doubts_at_rows(const FailureMapResult& result) {
   Case question;
   std::vector<Eigen::VectorXd> rows;

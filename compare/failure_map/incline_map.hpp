@@ -126,7 +126,7 @@ struct MapLearning {
 /// points to must outlive the result.
 FailureMapResult learn_map(const InclineMap& map, const MapGrains& grains, const MapLearning& how);
 
-/// Of both models' answers where they were run, and of the runs that the store took from an earlier engine. Coarse
+/// Doubts of both models' answers where they were run, and of runs that the store took from an earlier engine. Coarse
 /// grains are no doubt where twins tell what they do.
 Doubts doubts_of(const FailureMapResult& result, const MapGrains& grains);
 

@@ -46,7 +46,7 @@ std::string in_words(const Soil& soil);
 /// which count as exact, and whether a fit says how they err together. For the first lines of an answer; "" for a soil
 /// of grains alone.
 std::string errors_in_words(const Scenario& asked);
-/// Of a question: as its first model sees it.
+/// errors_in_words of a question, as its first model sees it.
 std::string errors_in_words(const Case& question);
 
 /// The condition in words, with what is not at its default: "load 80 N, slip 20 %, yaw 5 deg".

@@ -52,7 +52,7 @@ std::vector<std::string> why_it_pulls_without_slip(const ModelAnswers& model) {
   return {"At 0 % slip (v = r ω) the soil is still compacted and sheared along the contact, so the pull is not 0."};
 }
 
-/// Of each model at its only condition.
+/// Stresses under the wheel by each model at its only condition.
 Sheet stresses_of(const std::vector<ModelAnswers>& study) {
   std::vector<LabelledPatch> patches;
   for (const ModelAnswers& model : study)

@@ -85,7 +85,7 @@ void add_measured(Plot& plot, std::string label, const std::vector<double>& stra
   plot.series.push_back(std::move(series));
 }
 
-/// Of a test; `table` is empty where it has one run, which the sentences tell.
+/// The report of a test; `table` is empty where it has one run, which the sentences tell.
 Report report_of(const char* test, const std::string& soil, Table table, std::vector<std::string> sentences,
                  const Json& values, Sheet sheet) {
   Report report{sheet.title + ": " + soil, "A simulated laboratory test of the grains.",
