@@ -58,10 +58,6 @@ struct FailureRow {
   bool beyond(double tolerance) const;         ///< |difference| above the tolerance and above 2 standard errors
 };
 
-/// The rows with an answer, at coordinates(values) each.
-Samples answered_rows(const std::vector<FailureRow>& rows,
-                      const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& coordinates);
-
 /// What a map says of two models at a condition.
 enum class Judged { agree, differ, undecided };
 constexpr std::array<Word<Judged>, 3> words_of(std::type_identity<Judged>) {

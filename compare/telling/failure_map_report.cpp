@@ -137,24 +137,6 @@ std::string error_sentence(const FailureMapResult& result) {
                      100 * result.map.held_out.rms());
 }
 
-/// Which ratios without units were tried, and whether they serve better.
-std::string coordinates_in_words(const FailureMapResult& result) {
-  if (result.coordinates.empty()) return "";
-  const double plain = result.coordinates.front().held_out;
-  const auto best = std::ranges::min_element(result.coordinates,
-                                             [](const auto& a, const auto& b) { return a.held_out < b.held_out; });
-  const std::string text = fmt::format(
-      "Would ratios without units predict better than load, lug height, angle and slip themselves? We learnt the map "
-      "again from such ratios (the load number, which is the load over the weight of soil of the wheel's width and "
-      "radius squared; the lugs' height over the "
-      "sinkage at rest) and let it predict each condition from all others. With the quantities themselves it errs by "
-      "{:.1f} % of the load",
-      100 * plain);
-  return text + (best == result.coordinates.begin()
-                     ? ", with each set of ratios by more: the quantities themselves serve best."
-                     : fmt::format(", with {} by {:.1f} %: these serve better.", best->name, 100 * best->held_out));
-}
-
 std::string checks_sentence(const FailureMapResult& result) {
   std::size_t found = 0, within = 0, right = 0;
   for (const FreshCheck& check : result.checks)
@@ -338,18 +320,11 @@ std::string in_short(const FailureMapResult& result) {
           : "");
 }
 
-/// Scatter of the rows, whether ratios without units would serve better.
-std::vector<std::string> details(const FailureMapResult& result) {
-  std::vector<std::string> text = {scatter_sentence(result)};
-  if (std::string groups = coordinates_in_words(result); !groups.empty()) text.push_back(std::move(groups));
-  return text;
-}
-
 /// What a terminal says, for JSON.
 std::vector<std::string> in_sentences(const FailureMapResult& result) {
   std::vector<std::string> all;
   for (auto& [about, text] : trust_in_words(result, grains_sentence(result))) all.push_back(std::move(text));
-  for (std::string& text : details(result)) all.push_back(std::move(text));
+  all.push_back(scatter_sentence(result));
   return all;
 }
 
@@ -377,12 +352,6 @@ Table rows_table(const FailureMapResult& result) {
                                  judged_in_words(result.map.judged(result.question, row.values))});
     table.add(std::move(cells));
   }
-  return table;
-}
-
-Table coordinates_table(const FailureMapResult& result) {
-  Table table{"What the map may see, and its error with each row left out", {"coordinates", "error [% of the load]"}};
-  for (const Coordinates& c : result.coordinates) table.add({c.name, fmt::format("{:.2f}", 100 * c.held_out)});
   return table;
 }
 
@@ -445,9 +414,6 @@ Json failure_map_json(const FailureMapResult& result) {
     json["judged"] = word_of(result.map.judged(result.question, row.values));
     return json;
   });
-  document["coordinates"] = list_of(result.coordinates, [](const Coordinates& c) {
-    return Json{{"name", c.name}, {"held_out", finite(c.held_out)}};
-  });
   document["checks"] = list_of(result.checks, [&](const FreshCheck& check) {
     Json json = values_json(factors, check.values);
     json["predicted"] = estimate_json(check.predicted), json["found"] = or_null(check.found);
@@ -490,7 +456,7 @@ Report report_on(const FailureMapResult& result, const FailureMapAbout& about) {
   report.add("The answer in full", Sentences(trust_in_words(result, "")), Told::on_pages, "answer",
              ReportPart::Heading::place);
   report.add(Sentences(trust_in_words(result, grains)), Told::in_text);
-  report.add(Items{details(result)});
+  report.add(Items{{scatter_sentence(result)}});
   report.add(WarningsHere());
   report.add(Fold{"The map at its corners, side by side", [&result] { return corners(result); }});
   report.add("What it rests on", Prose{}, Told::on_pages, "rows");
@@ -498,13 +464,11 @@ Report report_on(const FailureMapResult& result, const FailureMapAbout& about) {
                   [&result] { return std::vector<ReportPart>{{rows_table(result)}}; }});
   if (!result.lug_gains.empty())
     report.add(Fold{"What lugs bring", [&result] { return std::vector<ReportPart>{{lugs_table(result)}}; }});
-  report.add(Fold{"Other coordinates", [&result] { return std::vector<ReportPart>{{coordinates_table(result)}}; }});
   if (!result.checks.empty())
     report.add(
         Fold{"Checks on fresh conditions", [&result] { return std::vector<ReportPart>{{checks_table(result)}}; }});
   if (about.show_rows) report.add(rows_table(result), Told::on_terminals);
   if (!result.lug_gains.empty()) report.add(lugs_table(result), Told::on_terminals);
-  report.add(coordinates_table(result), Told::on_terminals);
   if (!result.checks.empty()) report.add(checks_table(result), Told::on_terminals);
   report.resolved_case = about.resolved_case;
   report.data = [&result] { return failure_map_json(result); };
