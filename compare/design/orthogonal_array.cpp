@@ -180,20 +180,4 @@ AnalysisOfVariance analysis_of_variance(const LevelTable& design, const std::vec
   return analysis;
 }
 
-std::string sentence(const AnalysisOfVariance& analysis) {
-  switch (analysis.error_from) {
-    case ErrorFrom::known_noise:
-      return "Error: the runs' own standard errors. What is left over beyond them is interactions of factors.";
-    case ErrorFrom::free_columns:
-      return fmt::format("Error: the columns without a factor, {} degrees of freedom; interactions are in it.",
-                         analysis.left.freedom);
-    case ErrorFrom::pooled_factors:
-      break;
-  }
-  std::string names;
-  for (const VarianceRow& row : analysis.factors)
-    if (row.pooled) names += (names.empty() ? "" : ", ") + row.source;
-  return "Error: no column is free, so the weakest factors are pooled (" + names + "); the p-values are too small.";
-}
-
 }  // namespace soilbin::compare

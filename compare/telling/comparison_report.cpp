@@ -12,6 +12,7 @@
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/loop_report.hpp"
+#include "compare/telling/reports.hpp"
 
 namespace soilbin::compare {
 namespace {

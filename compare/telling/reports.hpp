@@ -62,6 +62,13 @@ struct WheelFmu;
 struct WheelLimits;
 struct WheelSlipFit;
 
+/// What the ± of an answer holds: which values of the soil have standard deviations of their own, which assumed ones,
+/// which count as exact, and whether a fit says how they err together. For the first lines of an answer; "" for a soil
+/// of grains alone.
+std::string errors_in_words(const Scenario& asked);
+/// errors_in_words of a question, as its first model sees it.
+std::string errors_in_words(const Case& question);
+
 /// What a wheel can do at best: of each answer a table over the slopes and what the steepest one is. `at_limits`:
 /// answers_at_limits of the answers, to which each row's remark belongs.
 Report report_on(const Case& question, const std::vector<WheelLimits>& answers,

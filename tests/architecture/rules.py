@@ -242,10 +242,8 @@ SENTENCE_WORDS = 5
 # Where sentences may be formatted beside telling/.
 TOLD_ELSEWHERE = {
     "compare/report/",  # a page says that a replay can't be shown
-    "compare/design/orthogonal_array.cpp",  # to be told: what an analysis of variance takes for its error
     "compare/measured/log_runs.cpp",  # to be told: what `runs` says of a log
     "compare/measured/time_log.cpp",  # to be told: which columns and rows it left aside
-    "compare/sweep/varying.cpp",  # to be told: where an answer's errors come from
 }
 
 
