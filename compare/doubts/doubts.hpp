@@ -48,6 +48,8 @@ struct Mobility;
 
 namespace soilbin::compare {
 
+struct LoggedRun;
+struct LogRuns;
 struct MeasuredPlatesFit;
 struct MeasuredShear;
 struct MeasuredShearFit;
@@ -134,6 +136,10 @@ Doubts column_doubts(const Campaign& campaign, const std::vector<Answer>& answer
 /// says first the key of a tire, a condition or a bin: "lugs", "lugs.count", "inflation_pressure", "pass", "bin"; but
 /// bin_depth_taken, which says the effect.
 Doubts unused_inputs(const Case& question);
+
+/// Channels of a run made of samples that are not steady; of all runs of a log, by run and lines.
+Doubts doubts(const LoggedRun& run);
+Doubts doubts(const LogRuns& runs);
 
 /// Doubts of a soil by itself: values out of the usual, no strength, nothing carried, hardly known.
 Doubts doubts(const Soil& soil);

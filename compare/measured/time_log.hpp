@@ -100,8 +100,10 @@ struct LeftOut {
 struct LogRuns {
   std::vector<LoggedRun> runs;
   std::vector<LeftOut> left_out;
-  std::string parted;              ///< a sentence: how the runs were told from each other
-  std::vector<std::string> notes;  ///< sentences on the log, and on what a campaign of these runs takes for granted
+  std::string parted_by;           ///< headers whose changes part the runs; "": slip, load and other conditions do
+  bool has_clock = false;          ///< its breaks part runs, too
+  std::size_t periods = 0;         ///< unbroken ones of the clock that hold the runs
+  std::vector<std::string> notes;  ///< sentences on the log
 };
 
 /// Fewest samples of a run, and of its steady part (chosen).
@@ -115,9 +117,6 @@ inline constexpr std::size_t fewest_samples = 8;
 /// whose channel's halves differ by more than four standard errors is doubted. Runs at like conditions share a
 /// setpoint. Throws InputError where no run is left.
 LogRuns runs_of_log(const TimeLog& log);
-
-/// A sentence: how means, errors and effective numbers of samples were made, with their sources.
-std::string reduction_in_words();
 
 /// The runs as the CSV of a campaign, with each channel's standard deviation in time and error of the mean; numbers to
 /// six digits, under the names and in the units of `named`.

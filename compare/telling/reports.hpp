@@ -5,6 +5,7 @@
 //   fmt::print("{}", text_of(report));
 #pragma once
 
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
@@ -40,12 +41,14 @@ struct BevameterFit;
 struct BevameterReadings;
 struct Campaign;
 struct CompiledC;
+struct DataColumn;
 struct DrivenAnswers;
 struct DriveSides;
 struct FailureMapResult;
 struct ForceTable;
-struct GoMap;
 struct Finding;
+struct GoMap;
+struct LogRuns;
 struct MeasuredPlate;
 struct MeasuredPlatesFit;
 struct PlateGroups;
@@ -81,6 +84,10 @@ nlohmann::ordered_json limits_rows(const std::vector<WheelLimits>& answers);
 /// and not fitted".
 Report report_on(const Prediction& prediction, const Campaign& campaign, const Scenario& asked,
                  const std::string& soil_from);
+
+/// The runs found in a rig's time log: each one's lines, setpoint and means, what was left out, how means are made; the
+/// CSV is a campaign's runs.csv under the names and in the units of `named`; soilbin-runs/1. `file`: the log's name.
+Report report_on(const LogRuns& made, const std::string& file, const std::map<std::string, DataColumn>& named);
 
 /// How far off a prediction is, a row a channel; `header` names the columns.
 Table channel_errors_table(const Prediction& prediction, std::string caption, std::vector<std::string> header);

@@ -242,7 +242,6 @@ SENTENCE_WORDS = 5
 # Where sentences may be formatted beside telling/.
 TOLD_ELSEWHERE = {
     "compare/report/",  # a page says that a replay can't be shown
-    "compare/measured/log_runs.cpp",  # to be told: what `runs` says of a log
     "compare/measured/time_log.cpp",  # to be told: which columns and rows it left aside
 }
 
