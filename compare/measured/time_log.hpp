@@ -111,7 +111,7 @@ inline constexpr std::size_t fewest_samples = 8;
 
 /// A run ends where a named part ends, where the clock goes back or stands still for more than ten steps, and, where
 /// nothing names the parts, where slip, load or another condition changes (stretches.hpp). Of each, the transients at
-/// both ends are cut off: by the latest of the MSER-5 cuts (White 1997) of all columns, where the samples cut off
+/// both ends are cut off: by the latest of the MSER-5 cuts of all columns, where the samples cut off
 /// differ from the rest by more than three standard errors and, of few samples, by three standard deviations;
 /// none where half of the run or more would go. A run whose conditions go on changing is a ramp and is left out; one
 /// whose channel's halves differ by more than four standard errors is doubted. Runs at like conditions share a

@@ -15,10 +15,10 @@ namespace soilbin::compare {
 namespace {
 
 constexpr const char* how_means_are_made =
-    "A mean is that of the steady part: transients are cut off at both ends by MSER-5 (White 1997). Its standard error "
-    "is by blocks of four autocorrelation times (Sokal 1997), so samples that follow each other do not count as "
-    "independent; the effective number of samples is (sd/error)^2. This error is within the run: only re-runs show how "
-    "much another bed differs.";
+    "A mean is that of the steady part: transients are cut off at both ends by MSER-5 (White, Cobb and Spratt 2000). "
+    "Its standard error is by blocks of four autocorrelation times (Sokal 1997), so samples that follow each other do "
+    "not count as independent; the effective number of samples is (sd/error)^2. This error is within the run: only "
+    "re-runs show how much another bed differs.";
 
 std::string lines_in_words(int first, int last) { return fmt::format("{}-{}", first, last); }
 
