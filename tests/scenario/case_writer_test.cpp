@@ -184,7 +184,8 @@ TEST(CaseWriter, TiresAndSoilsAlone) {
 
 TEST(CaseWriter, AConstructionThatNobodyToldIsNotWritten) {
   const auto read = [](const std::string& more) {
-    return parse_tire(make_source_text("format: soilbin-tire/1\nname: t\nradius: 0.5 m\nwidth: 0.2 m\n" + more));
+    return parse_tire(
+        make_source_text("format: soilbin-tire/1\nname: t\nradius: 0.5 m\nwidth: 0.2 m\n" + more, "t.yaml"));
   };
   EXPECT_EQ(read("construction: radial\n").construction, Construction::radial);
   for (const char* more : {"", "construction: unknown\n"}) {
