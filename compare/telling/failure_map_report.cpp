@@ -323,7 +323,7 @@ std::string in_short(const FailureMapResult& result) {
 /// What a terminal says, for JSON.
 std::vector<std::string> in_sentences(const FailureMapResult& result) {
   std::vector<std::string> all;
-  for (auto& [about, text] : trust_in_words(result, grains_sentence(result))) all.push_back(std::move(text));
+  for (const auto& [about, text] : trust_in_words(result, grains_sentence(result))) all.push_back(about + ": " + text);
   all.push_back(scatter_sentence(result));
   return all;
 }

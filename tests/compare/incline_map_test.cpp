@@ -239,7 +239,7 @@ TEST_F(SlowInclineMap, TellsItInWordsAsAPageAndAsJson) {
   EXPECT_EQ(json["checks"].size(), 4U);
   EXPECT_NEAR(json["cross_validated_error"].get<double>(), result.map.held_out.rms(), 1e-15);
   EXPECT_THAT(json["summary"][1].get<std::string>(),
-              AllOf(StartsWith("The error exceeds "), HasSubstr("Longitudinal incline: "),
+              AllOf(StartsWith("Do not trust it: The error exceeds "), HasSubstr("Longitudinal incline: "),
                     HasSubstr("conditions run differ by more than"), HasSubstr("too low at all of them")));
   const std::string page = page_of(report, {"soilbin failure-map made", {}});
   const std::size_t answer = page.find("id=\"answer\"");  // the words stand after the map
