@@ -114,7 +114,7 @@ Report report_on(const LogRuns& made, const std::string& file, const std::map<st
   report.add(Prose{{parting_sentence(made)}}, Told::to_look_at);
   report.add("Runs", logged_runs_table(made));
   if (const std::vector<std::string> left_out = lines_left_out(made.left_out); !left_out.empty())
-    report.add("Left out", Items{left_out});
+    report.add("Samples of no run", Items{left_out});
   report.notes = {how_means_are_made};
   for (std::string& note : notes_and_periods(made)) report.notes.push_back(std::move(note));
   report.data = [&made] { return logged_runs_json(made); };
