@@ -112,7 +112,7 @@ class DescribedFlags {
       else if constexpr (std::is_same_v<Limits, int>)
         into.*member = read_whole(flag, text, limits);
       else
-        into.*member = read_word<std::decay_t<decltype(into.*member)>>(flag, text);
+        into.*member = read_word<enum_of<std::decay_t<decltype(into.*member)>>>(flag, text);
     });
   }
 

@@ -30,7 +30,7 @@ void clear_progress_line();
 /// Stops at Ctrl-C. Shows the share done and the time left (show_progress_line), once the work has taken longer than
 /// half a second.
 compare::Progress shown_progress();
-/// The same of work in time: how much of its duration is done [s].
+/// Progress of work in time, shown as shown_progress shows it: how much of its duration is done [s].
 std::function<void(double time, double duration)> shown_progress_in_time();
 
 }  // namespace soilbin::cli

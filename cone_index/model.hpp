@@ -40,7 +40,7 @@ inline constexpr double usual_deflection = 0.2;
 /// or more.
 TireTaken tire_taken(const Tire& tire, double load);
 
-/// Of the relation that the soil asks for, at a load [N] that presses on it; its slope is by the soil's value. Throws
+/// Number of the relation that the soil asks for, at a load [N] that presses on it; slope: by the soil's value. Throws
 /// InputError for a soil that has neither value.
 struct MobilityNumber {
   double value = 0.0;

@@ -9,7 +9,7 @@ double brixius_number(double cone_index, const TireMeasures& tire, double load) 
          (1.0 + 3.0 * tire.width / tire.diameter);
 }
 
-Ratios brixius(double number, double slip, Construction construction) {
+Ratios brixius(double number, double slip, std::optional<Construction> construction) {
   const bool radial = construction == Construction::radial;
   const double by_slip = 0.88 * -std::expm1(-(radial ? 9.5 : 7.5) * slip);
   const double rolling = radial ? 0.0325 : 0.04, sinking = radial ? 0.9 : 1.0;

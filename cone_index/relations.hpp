@@ -46,7 +46,7 @@ double brixius_number(double cone_index, const TireMeasures& tire, double load);
 ///
 /// r is what the tire itself takes to roll: the torque gives it, and it does not reach the drawbar, so it stands in
 /// both and cancels. MAVS, after Pan et al. 2004, has it in the resistance alone: its net traction is r less.
-Ratios brixius(double number, double slip, Construction construction = Construction::bias_ply);
+Ratios brixius(double number, double slip, std::optional<Construction> construction = std::nullopt);
 
 /// Turnage's mobility number of sand [-],
 ///

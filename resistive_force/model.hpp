@@ -30,9 +30,9 @@ ResistiveForceSoil resistive_force_of(const Soil& soil);
 
 class ResistiveForce final : public Model {
  public:
-  /// Of the wheel as soilbin draws it.
+  /// The model of the wheel as soilbin draws it.
   ResistiveForce() = default;
-  /// Of a wheel as it was drawn (drawn_elements), whatever lugs the tire says.
+  /// The model of a wheel as it was drawn (drawn_elements), whatever lugs the tire declares.
   explicit ResistiveForce(TreadElements drawn) : drawn_(std::make_shared<const TreadElements>(std::move(drawn))) {}
   std::string name() const override { return model_name; }
   /// Standard errors from those of xi_n and surface friction, to first order. Throws what

@@ -77,7 +77,7 @@ bool has_alike_halves(const Tire& tire) {
 }
 
 constexpr double whole_turn = 2 * std::numbers::pi;
-/// Of a pitch, and of a whole turn of lugs that nobody has counted.
+/// Positions over which forces are averaged: of one pitch, and of a whole turn where the lugs are not counted.
 constexpr int turns_of_a_pitch = 8, turns_of_the_whole = 96;
 
 }  // namespace

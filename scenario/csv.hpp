@@ -42,7 +42,7 @@ inline constexpr std::size_t most_csv_columns = 200;
 /// all, more rows than most_rows, and too many columns.
 CsvTable parse_csv(const SourceText& source, std::size_t most_rows = most_csv_rows);
 
-/// The same row by row, for files too long to keep: gives the header, and hands on each row that isn't empty.
+/// Parses row by row, for files too long to keep: gives the header, and hands on each row that isn't empty.
 /// `too_long` is the hint where there are more than `most_rows`.
 CsvRow read_csv_rows(const SourceText& source, std::size_t most_rows, const std::string& too_long,
                      const std::function<void(const CsvRow& header)>& begin,

@@ -7,7 +7,7 @@
 //   visitor.exponent(key, member, range, need, meaning)      the soil's n, on which later units depend
 //   visitor.assumed_sd(key, member, meaning)                 a share of later values, their sd where they have none
 //   visitor.integer (key, member, lowest, need, meaning)     an int or an optional one
-//   visitor.choice  (key, member, need, meaning)             an enum; its words: words_of
+//   visitor.choice  (key, member, need, meaning)             an enum or an optional one; its words: words_of
 //   visitor.group   (key, member, need, meaning)             a struct with a description of its own, or an optional one
 //   visitor.list    (key, member, need, meaning)             a std::vector of such structs
 //   visitor.part    (key, member, need, meaning)             an optional soil: a mapping, a name of the library, a path
@@ -49,8 +49,8 @@ constexpr std::array<Word<LugPattern>, 4> words_of(std::type_identity<LugPattern
            {"staggered", LugPattern::staggered}}};
 }
 
-constexpr std::array<Word<Construction>, 3> words_of(std::type_identity<Construction>) {
-  return {{{"unknown", Construction::unknown}, {"bias_ply", Construction::bias_ply}, {"radial", Construction::radial}}};
+constexpr std::array<Word<Construction>, 2> words_of(std::type_identity<Construction>) {
+  return {{{"bias_ply", Construction::bias_ply}, {"radial", Construction::radial}}};
 }
 
 constexpr std::array<Word<SlipBy>, 2> words_of(std::type_identity<SlipBy>) {
@@ -84,9 +84,22 @@ constexpr std::array<Word<GrainShape>, 4> words_of(std::type_identity<GrainShape
            {"four_spheres", GrainShape::four_spheres}}};
 }
 
-/// All words of an enum, as files spell them.
+/// The enum of a choice, which may be an optional one.
+template <class Choice>
+struct EnumOf {
+  using type = Choice;
+};
 template <class E>
+struct EnumOf<std::optional<E>> {
+  using type = E;
+};
+template <class Choice>
+using enum_of = typename EnumOf<Choice>::type;
+
+/// All words of a choice, as files spell them.
+template <class Choice>
 std::vector<std::string> all_words() {
+  using E = enum_of<Choice>;
   std::vector<std::string> all;
   for (const Word<E>& word : words_of(std::type_identity<E>{})) all.emplace_back(word.text);
   return all;

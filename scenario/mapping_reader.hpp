@@ -117,6 +117,13 @@ class ReadInto {
     if (const YamlNode* node = find(key, need, meaning)) into_.*member = read_choice<E>(*node, reading_);
   }
 
+  /// Takes the word 'unknown' for an absent key.
+  template <class E>
+  void choice(const char* key, std::optional<E> T::*member, Need need, const char* meaning) {
+    const YamlNode* node = find(key, need, meaning);
+    if (node != nullptr && node->scalar != "unknown") into_.*member = read_choice<E>(*node, reading_);
+  }
+
   template <class U>
   void group(const char* key, std::optional<U> T::*member, Need need, const char* meaning) {
     const YamlNode* node = find(key, need, meaning);

@@ -116,6 +116,11 @@ class WriteFrom {
     writing_.lines->value(key, word_of(from_.*member));
   }
 
+  template <class E>
+  void choice(const char* key, std::optional<E> T::*member, Need, const char*) {
+    if (from_.*member) writing_.lines->value(key, word_of(*(from_.*member)));
+  }
+
   template <class U>
   void group(const char* key, U T::*member, Need, const char*) {
     descend(key, from_.*member);

@@ -168,8 +168,8 @@ double drift_over_error(std::span<const double> series) {
 
 namespace {
 
-/// Of what is left of a series once each fifth has lost its mean: a trend over the whole, or a last fifth that differs,
-/// is not in it.
+/// The fluctuation of a series less each fifth's mean: a trend over the whole, or a last fifth that differs, is not in
+/// it.
 Fluctuation fluctuation_within_fifths(std::span<const double> series) {
   constexpr std::size_t fifths = 5;
   std::vector<double> rest;
@@ -183,8 +183,8 @@ Fluctuation fluctuation_within_fifths(std::span<const double> series) {
   return fluctuation_of_few(rest, rho, fifths);
 }
 
-/// Of a change of the mean within a series; `independent`: of so many samples that follow no other it has the variance
-/// of a mean. 0 for a change that rounding makes.
+/// A change of the mean within a series over its standard error; `independent`: it has the variance of a mean of so
+/// many independent samples. 0 for a change that rounding makes.
 double over_error(double change, std::span<const double> series, double independent) {
   constexpr double rounding = 1e-12;
   const auto [lowest, highest] = std::ranges::minmax(series);

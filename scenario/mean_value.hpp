@@ -35,7 +35,7 @@ Estimate mean_of_repeats(std::span<const Estimate> repeats);
 
 /// The sample at which the start-up is best cut off: of all cuts in the first
 /// half, the one that minimises the estimated variance of the mean of what is
-/// left, sum (x - mean)^2/n^2, over means of five samples (MSER-5, White 1997).
+/// left, sum (x - mean)^2/n^2, over means of five samples (MSER-5, White, Cobb and Spratt 2000).
 std::size_t end_of_start_up(std::span<const double> series);
 
 /// Difference of the means of the two halves over its standard error, from the halves' own errors by blocks alone;

@@ -132,9 +132,9 @@ struct Soil {
   std::optional<SemiEmpiricalSoil> semi_empirical;
   std::optional<GranularSoil> granular;
   std::optional<ResistiveForceSoil> resistive_force{};
-  /// Of fine-grained soil: mean resistance to a cone of 30 deg over its base, to a depth of some 150 mm [Pa], > 0.
+  /// Fine-grained soil's mean resistance to a cone of 30 deg over its base, to a depth of some 150 mm [Pa], > 0.
   std::optional<Estimate> cone_index{};
-  /// Of sand: by how much the cone index grows with depth [Pa/m], > 0.
+  /// Growth of the cone index of sand with depth [Pa/m], > 0.
   std::optional<Estimate> cone_index_gradient{};
   std::optional<double> moisture;                ///< water content by mass [-]
   std::vector<SemiEmpiricalSoil> beds{};         ///< measured at several densities, loosest first (beds.hpp)

@@ -36,7 +36,6 @@ struct Lugs {
 
 /// How the plies of a pneumatic tire's carcass run. The model cone_index alone asks for it.
 enum class Construction {
-  unknown,
   bias_ply,  ///< crossed plies, belted or not
   radial,
 };
@@ -75,7 +74,7 @@ struct Tire {
   std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "lugs.height"
   /// From the rim to the tread [m]; absent: the model cone_index, which alone reads it, assumes one.
   std::optional<double> section_height{};
-  Construction construction = Construction::unknown;
+  std::optional<Construction> construction{};  ///< absent: cone_index takes bias ply, and says so
 };
 
 /// To the tips of the lugs [m].
@@ -96,7 +95,7 @@ std::string why_no_gaps(const Tire& tire);
 
 /// "rover-wheel (r 90 mm, b 110 mm, smooth)".
 std::string in_words(const Tire& tire);
-/// The same with a remark before the closing bracket.
+/// The tire in words with a remark before the closing bracket.
 std::string in_words(const Tire& tire, std::string_view remark);
 
 }  // namespace soilbin

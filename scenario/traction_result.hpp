@@ -54,7 +54,7 @@ struct TractionResult {
   /// Parameters of the soil, by name, whose standard deviation the standard errors lack: their derivative does not
   /// exist.
   std::vector<std::string> without_error_of{};
-  /// Of the analytic wheel [m^2]: its width times the length of the contact as seen from above, from entry to exit. The
+  /// Contact of the analytic wheel [m^2]: its width times the length as seen from above, from entry to exit. The
   /// load over it is the mean vertical stress under the wheel. NaN where nobody counted.
   double contact_area = not_a_number;
 };

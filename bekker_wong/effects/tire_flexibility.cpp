@@ -57,7 +57,7 @@ constexpr Presumption inflation_pressure = {.key = "inflation_pressure",
                                                 },
                                             .presumed = [](const Tire&) { return 100e3; }};
 
-/// Of a tire whose maker's table has the carcass in it.
+/// What is presumed of the carcass where the maker's table has it in it already.
 constexpr Presumption carcass_beside_table = {
     .key = carcass_pressure.key,
     .name = carcass_pressure.name,

@@ -15,6 +15,7 @@
 #include "compare/sweep/varying.hpp"
 #include "compare/sweep/wheel_limits.hpp"
 #include "compare/telling/answer_report.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"

@@ -32,7 +32,7 @@ Reply refusal(unsigned status, const std::string& what);
 
 Reply json_reply(const nlohmann::ordered_json& document, unsigned status = 200);
 
-/// Of cli/serve/browser what makes a page its own: its body, and its scripts after that of all pages (live.js).
+/// Files of cli/serve/browser that one page alone has: its body, and its scripts after that of all pages (live.js).
 struct PageFiles {
   std::string body;
   std::vector<std::string> scripts;

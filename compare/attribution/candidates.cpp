@@ -323,7 +323,7 @@ void Search::extend(std::size_t index) {
   });
 }
 
-/// It leaves no more than either effect does by itself: where its fit ended above that, once more from there.
+/// A pair leaves no more than either effect does by itself: where its fit ended above that, once more from there.
 std::optional<FittedModel> Search::fit_other_form(const OtherForm& other) const {
   auto found = fit_terms(base_, other.terms, other.start);
   const CandidateModel* single = best_single(forms_of(other.terms));
@@ -398,8 +398,8 @@ Candidates search_beside(const FittedModel& base, const Observations& all_runs,
   return std::move(search).result(stands_out);
 }
 
-/// Those that a fit of all runs may still bring to the front: the models of the sets that stand best, and those of one
-/// effect, or of effects of the best set, whatever they leave.
+/// Candidates that a fit of all runs may still bring to the front: the models of the sets with the most weight, and
+/// those of one effect, or of effects of the best set, whatever they leave.
 Candidates worth_fitting_again(Candidates found) {
   if (found.models.empty()) return found;
   const std::set<std::string> best = found.models[found.sets.front().best_candidate].ids;

@@ -53,7 +53,7 @@ struct Candidates {
   std::vector<WeightedSet> sets;       ///< over sets of effects, best first
   double base_log_evidence = 0.0;
   bool none_near_noise = false;  ///< what even the best one leaves is no noise of a known size
-  /// Of models: of largest weight, where the family-wise test lets any stand; once judged (judge), the one chosen.
+  /// The model of largest weight, where the family-wise test accepts any; once judged (judge), the one chosen.
   std::optional<std::size_t> best;
 
   /// A set's weight by its effects; it must have been weighed.

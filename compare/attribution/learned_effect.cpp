@@ -95,8 +95,8 @@ std::optional<LearnedProspect> learned_prospect(const FittedModel& beside, const
   return LearnedProspect{*learned_term(form, observations, thresholds::learned_sizes.at(best)), log_mean_exp(gains)};
 }
 
-/// Of the forms that leave a trace and are not there yet those with evidence, of most first, over the ranges of these
-/// observations. beside: fitted to them, or to them pooled.
+/// Forms with evidence among those that leave a trace and are not in the model yet, the most evidence first, over the
+/// ranges of these observations. beside: fitted to them, or to them pooled.
 std::vector<LearnedProspect> learned_prospects(const FittedModel& beside, const Observations& observations,
                                                const ThreadPool& pool) {
   const std::vector<EffectForm>& forms = bekker_wong::learned_forms();

@@ -117,7 +117,7 @@ namespace {
 using bekker_wong::PlateCurve;
 using bekker_wong::PlateSums;
 
-/// Of each curve's lower or upper half of pressures, where that half tells an exponent.
+/// Sums over each curve's lower or upper half of pressures, where that half has an exponent.
 std::vector<PlateSums> half_of(const std::vector<PlateCurve>& curves, bool lower) {
   std::vector<PlateSums> halves;
   for (const PlateCurve& curve : curves) {

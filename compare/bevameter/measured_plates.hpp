@@ -44,8 +44,8 @@ struct TestApart {
   std::string unit{};  ///< what its numbers would be in, if a unit explains it: "its sinkage in cm for mm"; else empty
 };
 
-/// Those that are apart, the farthest first; n: their common exponent. Set aside are no more than a quarter of the
-/// tests (one of three), and never the only two.
+/// Tests whose level differs from the others', the farthest first; n: their common exponent. No more than a quarter of
+/// the tests (one of three) is set aside, and never the only two.
 std::vector<TestApart> tests_apart(std::span<const TestLevel> tests, double n);
 
 /// Readings that are used: those of a pressure from `first` to `last` [Pa].

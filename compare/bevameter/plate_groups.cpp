@@ -24,7 +24,7 @@ std::optional<double> common_density(const std::vector<MeasuredPlate>& tests) {
   return shared ? density : std::nullopt;
 }
 
-/// Of the groups that have a density, where these are three or more and one size of plate pressed them all.
+/// How the values follow density, where three groups or more have one and one size of plate pressed them all.
 std::optional<DensityTrend> trend_of(const std::vector<PlateGroup>& groups) {
   std::vector<double> densities, exponents, errors_of_n, pressures, errors_of_p;
   DensityTrend trend;

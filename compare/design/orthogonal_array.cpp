@@ -23,7 +23,7 @@ bool is_prime(int q) {
   return q >= 2;
 }
 
-/// Of polynomials over GF(2), modulo x^2 + x + 1.
+/// Product of two polynomials over GF(2), modulo x^2 + x + 1.
 int product_in_gf4(int a, int b) {
   int product = ((b & 1) ? a : 0) ^ ((b & 2) ? a << 1 : 0);
   if (product & 4) product ^= 0b111;
@@ -178,22 +178,6 @@ AnalysisOfVariance analysis_of_variance(const LevelTable& design, const std::vec
     if (!row.pooled) give_f(row, analysis);
   if (noise_variance && analysis.left.freedom > 0) give_f(analysis.left, analysis);
   return analysis;
-}
-
-std::string sentence(const AnalysisOfVariance& analysis) {
-  switch (analysis.error_from) {
-    case ErrorFrom::known_noise:
-      return "Error: the runs' own standard errors. What is left over beyond them is interactions of factors.";
-    case ErrorFrom::free_columns:
-      return fmt::format("Error: the columns without a factor, {} degrees of freedom; interactions are in it.",
-                         analysis.left.freedom);
-    case ErrorFrom::pooled_factors:
-      break;
-  }
-  std::string names;
-  for (const VarianceRow& row : analysis.factors)
-    if (row.pooled) names += (names.empty() ? "" : ", ") + row.source;
-  return "Error: no column is free, so the weakest factors are pooled (" + names + "); the p-values are too small.";
 }
 
 }  // namespace soilbin::compare

@@ -104,7 +104,4 @@ AnalysisOfVariance analysis_of_variance(const LevelTable& design, const std::vec
                                         const std::vector<double>& responses,
                                         std::optional<double> noise_variance = std::nullopt);
 
-/// Where the error comes from, as a sentence.
-std::string sentence(const AnalysisOfVariance& analysis);
-
 }  // namespace soilbin::compare

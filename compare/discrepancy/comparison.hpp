@@ -44,9 +44,9 @@ struct JointTest {
   double chi2 = 0.0;
   /// Degrees of freedom behind D, of the channel that has fewest; infinite where the errors are known.
   double freedom = std::numeric_limits<double>::infinity();
-  /// Of chi2 where nothing differs: by chi square with `values` degrees of freedom where the errors are known, else by
-  /// trace_tail: of a measurement with its channels, whose correlation is estimated too; of grains, whose channels
-  /// stand each by itself, with one (by F, which errs high where the channels' errors err apart).
+  /// Chance of chi2 where nothing differs: by chi square with `values` degrees of freedom where errors are known, else
+  /// by trace_tail: with a measurement's channels, whose correlation is estimated too; with one for grains, whose
+  /// channels stand each by itself (by F, which errs high where the channels' errors err apart).
   double p_value = 1.0;
   double p_errors_known = 1.0;    ///< p_value were the errors known, by chi square
   double chi2_soil_exact = 0.0;   ///< the same with S = 0: what the soil's uncertainty explains is the rest

@@ -41,7 +41,7 @@ OperatingCondition as_defined_by(OperatingCondition run, const OperatingConditio
   return run;
 }
 
-/// The same of inflation pressures: 0 where one of them tells none.
+/// How far two inflation pressures are apart, in multiples of what still counts as near; 0 where one is not known.
 double pressures_apart(const OperatingCondition& run, const OperatingCondition& b) {
   if (!run.inflation_pressure || !b.inflation_pressure) return 0.0;
   const double difference = std::abs(*run.inflation_pressure - *b.inflation_pressure);

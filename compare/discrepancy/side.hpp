@@ -35,10 +35,10 @@ constexpr std::array<double, channel_views.size()> known_errors() {
 /// What a side says at one condition.
 struct SidePoint {
   std::optional<TractionResult> result;  ///< means; standard errors of the means
-  /// Of each channel, the standard deviation of one run about the mean of all runs that could have been made [SI]: its
-  /// own fluctuations and, with two packings or more, the packings'. 0 for an analytic model.
+  /// Standard deviation of one run about the mean of all runs that could have been made [SI], by channel: its own
+  /// fluctuations and, with two packings or more, the packings'. 0 for an analytic model.
   std::array<double, channel_views.size()> scatter{};
-  /// Of each channel, the degrees of freedom behind the standard error; infinite where it is not an estimate of few
+  /// Degrees of freedom behind the standard error, by channel; infinite where it is not an estimate of few
   /// runs.
   std::array<double, channel_views.size()> freedom = known_errors();
   /// Channels that the side speaks of; a measurement may lack some.
@@ -58,11 +58,11 @@ struct Side {
   SideKind kind = SideKind::analytic;
   std::vector<SidePoint> points;
   std::optional<ModelChoice> choice{};  ///< of an analytic side: its model and effects
-  /// Of grains: whether the runs tell how far packings scatter, be it less than single runs' own errors.
+  /// Whether the runs of grains tell how far packings scatter, be it less than single runs' own errors.
   bool scatter_known = false;
-  /// Of a measurement: the noise of one run, from all re-runs of the campaign.
+  /// The noise of one measured run, from all re-runs of the campaign.
   std::optional<NoiseFloor> noise{};
-  /// Of a measurement: the runs behind the points as they were measured, in the campaign's own frame and slip.
+  /// The measured runs behind the points, in the campaign's own frame and slip.
   std::vector<Run> runs{};
   Doubts doubts{};  ///< in all its points: whether a record hangs on the time step
 };

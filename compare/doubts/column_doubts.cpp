@@ -227,7 +227,7 @@ bool answers_at_last(const Compared& rows, const Compared& other) {
 /// None where the correction is not to be thought of. A prediction that there is none of counts as 0, wholly wrong.
 std::optional<MisfitLeft> misfit_left(const Correction& correction, const Compared& rows, const Compared& other) {
   constexpr std::size_t fewest_to_compare = 3;
-  // Of a prediction that may itself be wrong by a factor of 2 or 3.
+  // The prediction may itself be wrong by a factor of 2 or 3.
   constexpr double least_size_ratio = 6.0, most_size_ratio_left = 3.0;
   const bool at_last = answers_at_last(rows, other);
   double log_ratio = 0;
@@ -258,7 +258,7 @@ std::optional<MisfitLeft> misfit_left(const Correction& correction, const Compar
   return MisfitLeft{std::exp(log_ratio / static_cast<double>(channels)), log_ratio};
 }
 
-/// Of a long campaign only so many rows, evenly.
+/// At most so many rows of a campaign, spread evenly over it.
 Compared some_rows(const Campaign& campaign, const std::vector<Answer>& answers) {
   constexpr std::size_t most = 200;
   const std::size_t every = campaign.runs.empty() ? 1 : 1 + (campaign.runs.size() - 1) / most;

@@ -42,7 +42,7 @@ bool has_pressures(const Case& question) {
   });
 }
 
-/// Of one effect the first that is there.
+/// What a tire declares and the effect that it adds; of several rows with one effect the first that applies counts.
 constexpr std::array<DeclaredByTire, 3> declared_by_tires = {{
     {"tire_flexibility", "carcass_spring",
      [](const Case& question) { return question.scenario.tire.deflection && has_pressures(question); },

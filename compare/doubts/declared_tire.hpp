@@ -33,7 +33,7 @@ struct TireLeftOut {
 /// pressure, and where grains are asked, which meet the tire with its lugs.
 Doubts as_declared(Case& question, const TireLeftOut& left_out);
 
-/// The same without adding any effect, where every effect was switched off by name.
+/// Doubts of as_declared without adding an effect, where every effect was switched off by name.
 Doubts without_effects(Case& question, const TireLeftOut& left_out);
 
 }  // namespace soilbin::compare

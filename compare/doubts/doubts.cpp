@@ -16,7 +16,7 @@
 namespace soilbin::compare {
 namespace {
 
-/// Of the radius. The base model has no balance beyond 0.9; its stresses are tested up to about this.
+/// Sinkage over the radius up to which the base model's stresses are tested; beyond 0.9 it has no balance.
 constexpr double unreliable_sinkage_share = 0.5;
 
 /// A wheel so deep that the stresses under it are a stretch, or none at all.
@@ -157,7 +157,7 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Doubts& a
   append(all, heavy_and_lugged(scenario, answer));
 }
 
-/// Of each answer, those alike once.
+/// Doubts of all answers, equal ones once.
 Doubts doubts_of_answers(const Scenario& scenario, const std::vector<ModelAnswers>& study, bool unsolved) {
   Doubts all;
   for (const ModelAnswers& model : study) {

@@ -48,12 +48,14 @@ struct Mobility;
 
 namespace soilbin::compare {
 
+struct LoggedRun;
+struct LogRuns;
 struct MeasuredPlatesFit;
 struct MeasuredShear;
 struct MeasuredShearFit;
 struct PlateGroups;
 
-/// Of a question and the answers to it, by any model. What no answer was found to is not among them: answers say that
+/// Doubts of a question and its answers, by any model. A condition without an answer is none of them: answers say that
 /// themselves. `study` may be empty, and its models need not be all of the question's. `of_models`: what else is
 /// doubtful in their answers; told among the others.
 Doubts doubts(const Case& question, const std::vector<ModelAnswers>& study, const Doubts& of_models = {});
@@ -61,27 +63,27 @@ Doubts doubts(const Case& question, const std::vector<ModelAnswers>& study, cons
 /// The question's tire, for the first line of an answer; says where its lugs change nothing.
 std::string tire_in_words(const Case& question);
 
-/// Of a question that nobody has answered yet: asks its analytic models, tells where they have no answer, and looks at
+/// Doubts of a question without answers: asks its analytic models, tells where they have no answer, and looks at
 /// the soil's grains too, which `--model dem` would take.
 Doubts doubts(const Case& question);
 
-/// Of a campaign and a prediction of it by `asked`: the wheel with that soil and these effects, and the rows.
+/// Doubts of a campaign and its prediction by `asked`: the wheel with that soil and these effects, and the rows.
 Doubts doubts(const Campaign& campaign, const Scenario& asked, const Prediction& prediction);
 
-/// Of a campaign, by the model that it declares; tells where that has no answer.
+/// Doubts of a campaign, by the model that it declares; tells where that has no answer.
 Doubts doubts(const Campaign& campaign);
 
-/// The same before a fit that looks for effects: without what the declared model alone doesn't hear of.
+/// Doubts of a campaign before a fit that looks for effects: without what the declared model alone does not read.
 Doubts doubts_before_fit(const Campaign& campaign);
 
-/// Those that take a column for mistaken or the rows for samples of a log: no verdict holds beside one.
+/// Doubts that take a column for mistaken or the rows for samples of a log: no verdict holds beside one.
 Doubts of_mistaken_columns(Doubts doubts);
 
 /// What is doubtful in one answer, for its row of a table: without the condition, which stands there. "" where nothing
 /// is. An answer that is none says why by itself.
 std::string remark_on(const Scenario& scenario, const ModelChoice& model, const Answer& answer);
 
-/// The same for a table of answers about one scenario, which must outlive it.
+/// remark_on for a table of answers about one scenario, which must outlive it.
 Remark remarks_about(const Scenario& scenario);
 
 /// A remark for each run of a prediction, on the answer and on the measured row.
@@ -91,7 +93,7 @@ std::vector<std::string> remarks_on(const Campaign& campaign, const Scenario& as
 /// n, no test that was repeated, a curve that bends, a form that misses the pressures.
 Doubts doubts(const MeasuredPlatesFit& fit);
 
-/// Of tests fitted apart: those of their readings, one size of plate, a density that no bed had.
+/// Doubts of tests fitted apart: their readings', one size of plate, a density that no bed had.
 Doubts doubts(const PlateGroups& groups);
 
 /// One normal stress, a cohesion below 0, humps, no test that was repeated.
@@ -135,13 +137,17 @@ Doubts column_doubts(const Campaign& campaign, const std::vector<Answer>& answer
 /// bin_depth_taken, which says the effect.
 Doubts unused_inputs(const Case& question);
 
-/// Of a soil by itself: values out of the usual, no strength, nothing carried, hardly known.
+/// Channels of a run made of samples that are not steady; of all runs of a log, by run and lines.
+Doubts doubts(const LoggedRun& run);
+Doubts doubts(const LogRuns& runs);
+
+/// Doubts of a soil by itself: values out of the usual, no strength, nothing carried, hardly known.
 Doubts doubts(const Soil& soil);
 
-/// Of a wheel by itself: its proportions.
+/// Doubts of a wheel by itself: its proportions.
 Doubts doubts(const Tire& tire);
 
-/// The same on a soil, which may carry nothing for this width.
+/// Doubts of a wheel and its soil, which may carry nothing for this width.
 Doubts doubts(const Tire& tire, const Soil& soil);
 
 /// What resistive force theory takes for a soil that does not declare its values, and what it can't know of it.
@@ -166,9 +172,9 @@ Doubts doubts(const cone_index::Mobility& mobility);
 
 class NamedDoubts {
  public:
-  /// Those of a study and its answers.
+  /// Adds the doubts of a study and its answers.
   void add(const std::string& name, const Case& question, const std::vector<ModelAnswers>& study);
-  /// Those that somebody else has found.
+  /// Adds doubts that were found elsewhere.
   void add(const std::string& name, const Doubts& doubts);
   /// In the order in which they came, each with its names (Doubt::of).
   Doubts all() const;

@@ -44,15 +44,15 @@ inline constexpr double deep_overlap = 0.2;
 Doubts soft_grain_doubts(const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
                          const std::vector<ModelAnswers>& study);
 
-/// Of the tire's width, under which a bed's walls are doubted (chosen). At 2 widths they held the soil, at 2.6 the
-/// paper's results were had (docs/lab/grain-size.md).
+/// Bed's width over the tire's, below which its walls are doubted (chosen). At 2 they held the soil; the paper's
+/// results were had at 2.6 (docs/lab/grain-size.md).
 inline constexpr double wide_bed = 2.5;
 
 /// One on a bed of this width [m] whose walls are near the tire.
 Doubts narrow_bed_doubts(const Tire& tire, double bed_width);
 
-/// Of the values by themselves: a density that no grain has, friction of more than any rock's, radii that differ by so
-/// much that runs take very long, cohesion that presses grains into each other by more than deep_overlap; the
+/// Doubts of the values by themselves: a density that no grain has, friction of more than any rock's, radii that differ
+/// by so much that runs take very long, cohesion that presses grains into each other by more than deep_overlap; the
 /// directional rolling laws, whose answers depend on the time step, with where they turn into a dashpot.
 Doubts grain_value_doubts(const GranularSoil& grains);
 

@@ -59,7 +59,7 @@ Estimate between(const Estimate& a, const Estimate& b, double share) {
   return {a.value + share * (b.value - a.value), std::hypot((1 - share) * a.std_error, share * b.std_error)};
 }
 
-/// Those of a slip: of the studied ones, interpolated between them; beyond them those of the nearest.
+/// The slopes at a slip, interpolated between the studied ones; beyond them those of the nearest.
 Slopes slopes_at(double slip, const std::vector<Slopes>& all) {
   const auto above = std::find_if(all.begin(), all.end(), [&](const Slopes& one) { return one.slip >= slip; });
   if (above == all.end()) return all.back();

@@ -28,7 +28,7 @@
 
 namespace soilbin::compare {
 
-/// Of an answer from grains: it less that of infinitely fine grains.
+/// An answer from grains less that of infinitely fine grains.
 struct ResolutionError {
   Estimate drawbar_pull;  ///< [N]
   Estimate torque;        ///< [N m]
@@ -38,10 +38,10 @@ struct ResolutionError {
   bool known() const { return beyond.empty(); }
 };
 
-/// Of an answer, from its twin on grains of the same sand `ratio` times as large. Both are taken to lie on a straight
-/// line in d, so the error is (twin - answer)/(ratio - 1), and its standard error that of both over ratio - 1.
+/// The error of an answer from its twin, on grains of the same sand `ratio` times as large. Both are taken to lie on a
+/// straight line in d: the error is (twin - answer)/(ratio - 1), and its standard error that of both over ratio - 1.
 ResolutionError error_by_twin(const TractionResult& answer, const TractionResult& twin, double ratio);
-/// Of one of its numbers.
+/// The error of one number of an answer.
 Estimate error_by_twin(const Estimate& answer, const Estimate& twin, double ratio);
 
 /// What the study found at one slip with grains of one size: means over packings and their errors.
@@ -85,11 +85,11 @@ SizeFit fit_against_size(std::span<const double> diameters, std::span<const Esti
 /// Whose answer a sinkage is: that of coarse grains lacks what their size takes from it.
 enum class SinkageOf { grains, another_model };
 
-/// Of the answer of a scenario's grains at this condition, whose contact's length follows from this sinkage [m]; on a
-/// bed of this void ratio, where it is known. Standard errors are widened by carried_over for another wheel (radius,
-/// width, lugs), load or sand, of which one was tried; and by as much once more, as independent, for each of what was
-/// not: another slip, a slope, yaw, a later pass, another void ratio (chosen). Throws InputError for a soil without
-/// grains.
+/// The error of the answer of a scenario's grains at a condition: the contact's length follows from this sinkage [m];
+/// on a bed of this void ratio, where it is known. Standard errors are widened by carried_over for another wheel
+/// (radius, width, lugs), load or sand, of which one was tried; and by as much once more, as independent, for each of
+/// what was not: another slip, a slope, yaw, a later pass, another void ratio (chosen). Throws InputError for a soil
+/// without grains.
 ResolutionError resolution_error(const Scenario& scenario, const OperatingCondition& at, double sinkage,
                                  SinkageOf whose = SinkageOf::grains, double void_ratio = not_a_number);
 

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -282,6 +284,24 @@ Doubts row_doubts(const Campaign& campaign) {
   add_flipped_sinkage(campaign.runs, found);
   if (runs) add_repeated_rows(campaign.runs, found);  // samples of a log may well be alike
   add_unsteady_runs(campaign.runs, found);
+  return found;
+}
+
+Doubts doubts(const LoggedRun& run) {
+  constexpr double many = 1e4;
+  Doubts found;
+  for (const auto& [title, errors] : run.unsteady)
+    found.push_back({DoubtKind::unsteady_samples, {title, errors < many ? Said(errors) : Said("very many")}});
+  return found;
+}
+
+Doubts doubts(const LogRuns& runs) {
+  Doubts found;
+  for (const LoggedRun& one : runs.runs)
+    for (Doubt& doubt : doubts(one)) {
+      doubt.of = fmt::format("run {}, lines {}-{}", *one.run.at.run, one.first_line, one.last_line);
+      found.push_back(std::move(doubt));
+    }
   return found;
 }
 

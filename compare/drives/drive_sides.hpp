@@ -1,4 +1,4 @@
-// The same drive by the analytic wheel and by grains, side by side: over time, and where nothing changes any more with
+// One drive by the analytic wheel and by grains, side by side: over time, and where nothing changes any more with
 // what either side doesn't know.
 #pragma once
 

@@ -15,7 +15,7 @@ Point point_of(const dem::Vec3& v) { return {v.x, v.y, v.z}; }
 
 /// Found by its argument's namespace (note_text.hpp).
 template <class Notes>
-void parts(Notes& notes, ReplayBin& bin) {
+void archive(Notes& notes, ReplayBin& bin) {
   notes(bin.lower, bin.upper, bin.periodic);
 }
 

@@ -49,7 +49,7 @@ class RunCosts {
   /// to be engine_over_lammps times slower than that, a process.
   RunCosts(const Scenario& scenario, const dem::DemSettings& settings, const std::vector<Record>& records);
 
-  /// Of a run, in steps on as many grains as the soil's own.
+  /// The cost of a run, in steps on as many grains as the soil's own.
   double steps(const RunSpec& run) const;
   /// On the clock on the wall, the bed already settled [s].
   double seconds(const RunSpec& run) const { return in_run_ * steps(run) / speed_; }

@@ -63,7 +63,7 @@ std::string provenance_of(const ForceTable& table, const CHeaderAbout& about) {
   return text;
 }
 
-/// The same for every table: NAME is its name, SIZE its capitals, ARGUMENTS and PLACE what its function takes.
+/// The code of every table: NAME is its name, SIZE its capitals, ARGUMENTS and PLACE what its function takes.
 constexpr const char* look_up_in_c = R"(
 /* Multilinear between the nodes. Outside the range: the values at the nearest place within it, and NAME_CLAMPED.
  * NAME_NO_ANSWER, and NAN in every value: the place is not a number, or the model has no answer at a corner. */

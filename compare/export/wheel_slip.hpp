@@ -51,7 +51,7 @@ struct WheelSlipFit {
   std::vector<ModelAnswers> answers;  ///< behind the points
 };
 
-/// Of a question that asks one model at one condition on level ground; its slip is that of the lateral curve. Throws
+/// The fit of a question that asks one model at one condition on level ground, whose slip the lateral curve has. Throws
 /// InputError for another question, NoSolution where the model answers nowhere.
 WheelSlipFit wheel_slip_of(Case question, const MakeModel& make = make_model);
 

@@ -17,13 +17,13 @@ using Eigen::VectorXd;
 
 constexpr double one_sided_95 = 1.645;
 
-/// Rows that have one of their two shares of the load, at coordinates(values) each.
-Samples rows_with(std::optional<Estimate> FailureRow::*share, const std::vector<FailureRow>& rows,
-                  const std::function<VectorXd(const VectorXd&)>& coordinates) {
+/// Rows that have one of their two shares of the load, on the unit cube.
+Samples rows_with(std::optional<Estimate> FailureRow::*share, const FailureQuestion& question,
+                  const std::vector<FailureRow>& rows) {
   std::vector<VectorXd> x;
   std::vector<Estimate> y;
   for (const FailureRow& row : rows)
-    if (row.*share) x.push_back(coordinates(row.values)), y.push_back(*(row.*share));
+    if (row.*share) x.emplace_back(to_unit(question.factors, row.values)), y.push_back(*(row.*share));
   const Index n = static_cast<Index>(x.size());
   Samples samples{MatrixXd(n, n > 0 ? x.front().size() : 0), VectorXd(n), VectorXd(n)};
   for (Index i = 0; i < n; ++i) {
@@ -34,8 +34,7 @@ Samples rows_with(std::optional<Estimate> FailureRow::*share, const std::vector<
 }
 
 Samples samples_of(const FailureQuestion& question, const std::vector<FailureRow>& rows) {
-  Samples samples =
-      answered_rows(rows, [&](const VectorXd& values) -> VectorXd { return to_unit(question.factors, values); });
+  Samples samples = rows_with(&FailureRow::difference, question, rows);
   if (samples.y.size() < static_cast<Index>(question.factors.size()) + 2)
     throw NoSolution(fmt::format("{}: only {} of {} conditions have an answer of both models", question.name,
                                  samples.y.size(), rows.size()));
@@ -59,9 +58,7 @@ void learn(const FailureQuestion& question, FailureMap& map) {
   map.surrogate.emplace(samples_of(question, map.rows), SurrogateOptions{.seed = map.seed});
   map.held_out = map.surrogate->mode().leave_one_out();
   map.resolution_error.reset();
-  const Samples errors = rows_with(&FailureRow::resolution_error, map.rows, [&](const VectorXd& values) -> VectorXd {
-    return to_unit(question.factors, values);
-  });
+  const Samples errors = rows_with(&FailureRow::resolution_error, question, map.rows);
   if (errors.size() >= static_cast<Index>(question.factors.size()) + 2)
     map.resolution_error.emplace(errors, SurrogateOptions{.seed = map.seed});
 }
@@ -126,11 +123,6 @@ std::vector<VectorXd> boundary_points(const FailureQuestion& question, const Fai
 }
 
 }  // namespace
-
-Samples answered_rows(const std::vector<FailureRow>& rows,
-                      const std::function<VectorXd(const VectorXd&)>& coordinates) {
-  return rows_with(&FailureRow::difference, rows, coordinates);
-}
 
 bool FailureRow::beyond(double tolerance) const {
   return difference && std::abs(difference->value) > std::max(tolerance, 2 * difference->std_error);

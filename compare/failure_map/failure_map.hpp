@@ -41,8 +41,8 @@ struct FailureQuestion {
 struct FailureMapOptions {
   int first = 24;        ///< runs of the maximin Latin hypercube
   int at_boundary = 16;  ///< further runs, each where the boundary may be (straddle)
-  /// Of these, chosen at once: after the first of a batch the others are chosen as if the surrogate's predictions at
-  /// those before had been measured, its hyperparameters held (kriging believer; Ginsbourger, Le Riche and Carraro
+  /// Size of a batch: after its first run the others are chosen as if the surrogate's predictions at the places before
+  /// had been measured, its hyperparameters held (kriging believer; Ginsbourger, Le Riche and Carraro
   /// 2010, Kriging is well-suited to parallelize optimization). 1: each is chosen when the one before is known.
   int at_once = 1;
   std::uint64_t seed = 1;
@@ -57,10 +57,6 @@ struct FailureRow {
   std::optional<Estimate> resolution_error{};  ///< it less that from infinitely fine grains, where that is known
   bool beyond(double tolerance) const;         ///< |difference| above the tolerance and above 2 standard errors
 };
-
-/// The rows with an answer, at coordinates(values) each.
-Samples answered_rows(const std::vector<FailureRow>& rows,
-                      const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& coordinates);
 
 /// What a map says of two models at a condition.
 enum class Judged { agree, differ, undecided };

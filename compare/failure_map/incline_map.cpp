@@ -6,7 +6,6 @@
 #include <functional>
 #include <vector>
 
-#include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/model.hpp"
 #include "compare/design/factor.hpp"
 #include "compare/doubts/doubts.hpp"
@@ -90,30 +89,6 @@ void check_model(const InclineMap& map, ModelKind kind) {
     throw InputError("tire '" + map.scenario.tire.name +
                      "' tells no count and thickness of lugs, which runs with lugs need\n  hint: a lugged tire; the "
                      "map varies its lugs' height");
-}
-
-/// Load number, lug height over static sinkage, tan of the angle, slip.
-VectorXd groups_at(const InclineMap& map, const VectorXd& values) {
-  const Scenario scenario = scenario_at(map, values);
-  const OperatingCondition at = condition_at(map, values);
-  const SemiEmpiricalSoil& soil = *scenario.soil.semi_empirical;
-  const Tire& tire = scenario.tire;
-  const double pressing = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
-  const double sinkage =
-      bekker_wong::bekker_static_sinkage(bekker_wong::values_of(soil), tire.radius, tire.width, pressing);
-  return (VectorXd(4) << at.load / (bulk_density(soil) * gravity_of(soil) * tire.width * tire.radius * tire.radius),
-          values[map_lug_height] / sinkage, std::tan(values[map_angle]), values[map_slip])
-      .finished();
-}
-
-/// Rows with an answer, in coordinates that are stretched onto the unit cube.
-Samples samples_in(const FailureMap& rows, const std::function<VectorXd(const VectorXd&)>& coordinates) {
-  Samples samples = answered_rows(rows.rows, coordinates);
-  for (Index k = 0; k < samples.x.cols(); ++k) {
-    const double low = samples.x.col(k).minCoeff(), high = samples.x.col(k).maxCoeff();
-    samples.x.col(k) = (samples.x.col(k).array() - low) / (high > low ? high - low : 1.0);
-  }
-  return samples;
 }
 
 }  // namespace
@@ -231,22 +206,6 @@ double rms_of(const std::vector<FreshCheck>& checks) {
   return count > 0 ? std::sqrt(squares / count) : not_a_number;
 }
 
-std::vector<Coordinates> compare_coordinates(const InclineMap& map, const FailureMap& rows) {
-  const auto groups = [&](const VectorXd& values) { return groups_at(map, values); };
-  const std::vector<std::pair<std::string, std::function<VectorXd(const VectorXd&)>>> all = {
-      {"load, lug height, angle, slip", [](const VectorXd& values) { return values; }},
-      {"load number, lug height over sinkage, tan(angle), slip", groups},
-      {"lug height over sinkage, tan(angle), slip", [&](const VectorXd& v) { return VectorXd(groups(v).tail(3)); }},
-      {"load number, tan(angle), slip", [&](const VectorXd& v) {
-         const VectorXd g = groups(v);
-         return VectorXd((VectorXd(3) << g[0], g[2], g[3]).finished());
-       }}};
-  std::vector<Coordinates> compared;
-  for (const auto& [name, coordinates] : all)
-    compared.push_back({name, fit_surrogate(samples_in(rows, coordinates)).leave_one_out().rms()});
-  return compared;
-}
-
 namespace {
 
 /// Where the models agree: without lugs at any slip, else also up to a slip; with any lugs; and the largest box of all.
@@ -264,7 +223,7 @@ std::vector<AgreementClause> agreements(const FailureQuestion& question, Failure
   return clauses;
 }
 
-/// Of both models at the conditions that were run, with the highest lugs.
+/// Doubts of both models at the conditions that were run, with the highest lugs.
 Doubts doubts_at_rows(const FailureMapResult& result) {
   Case question;
   std::vector<Eigen::VectorXd> rows;
@@ -297,7 +256,6 @@ FailureMapResult learn_map(const InclineMap& map, const MapGrains& grains, const
   if (grains.waits()) return result;
   result.clauses = agreements(result.question, result.map, how.rounds);
   if (grains.waits()) return result;
-  result.coordinates = compare_coordinates(result.asked, result.map);
   result.checks = check_fresh(result.question, result.map, how.fresh, how.runs.seed);
   result.lug_gains = lug_gains(result.asked, result.question, result.map);
   result.by_twins = grains.coarser != nullptr;

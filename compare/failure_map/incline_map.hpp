@@ -78,17 +78,6 @@ std::vector<FreshCheck> check_fresh(const FailureQuestion& question, const Failu
 /// Root mean square of found less predicted [share of the load]; NaN where nothing was found.
 double rms_of(const std::vector<FreshCheck>& checks);
 
-/// What a surrogate may see instead of the factors, and how well it then predicts rows that are left out.
-struct Coordinates {
-  std::string name;       ///< "load number, lug height over sinkage, tan of the angle, slip"
-  double held_out = 0.0;  ///< root mean square error, left out one at a time [share of the load]
-};
-
-/// The factors themselves; dimensionless groups of them (load number W/(gamma b r^2), lug height over Bekker's static
-/// sinkage at that load and slope, tan of the angle, slip); and these without the load number: where that is no worse,
-/// the groups collapse the data. One wheel on one soil can't tell more, since its load number is the load.
-std::vector<Coordinates> compare_coordinates(const InclineMap& map, const FailureMap& rows);
-
 // A failure map learnt, with all that is to be said of it: where the models agree, how well the map knows, what there
 // is to doubt. telling/failure_map_report.cpp tells it.
 //
@@ -107,7 +96,6 @@ struct FailureMapResult {
   FailureQuestion question;
   FailureMap map;
   std::vector<AgreementClause> clauses;  ///< where the models agree
-  std::vector<Coordinates> coordinates;
   std::vector<FreshCheck> checks;
   std::vector<LugGain> lug_gains;
   MapShares shares;
@@ -126,7 +114,7 @@ struct MapLearning {
 /// points to must outlive the result.
 FailureMapResult learn_map(const InclineMap& map, const MapGrains& grains, const MapLearning& how);
 
-/// Of both models' answers where they were run, and of the runs that the store took from an earlier engine. Coarse
+/// Doubts of both models' answers where they were run, and of runs that the store took from an earlier engine. Coarse
 /// grains are no doubt where twins tell what they do.
 Doubts doubts_of(const FailureMapResult& result, const MapGrains& grains);
 

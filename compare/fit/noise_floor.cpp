@@ -143,7 +143,7 @@ class VarianceComponents {
     return 2 * static_cast<double>(n_) * std::log(sigma) + log_shape_ + log_det + fit;
   }
 
-  /// Of each value, the chance of one farther off the smooth fit of the others: its residual in sd of its own, with the
+  /// Each value's chance of one farther off the smooth fit of the others: its residual in sd of its own, with the
   /// noise of the others, is Student's t (externally studentised; Cook and Weisberg 1982, ch. 2). Also the trace of the
   /// smoother, and the residuals themselves.
   VectorXd chances(double sigma, double tau, double& trace, VectorXd& plain) const {
@@ -216,7 +216,7 @@ double typical_noise(const VectorXd& residual, const VectorXd& prediction) {
   return std::max(spread > range ? spread : thresholds::typical_noise_share * range, 1e-12);
 }
 
-/// Of a channel whose one or two values estimate nothing, on no degree of freedom.
+/// A guess for a channel whose one or two values estimate nothing, on no degree of freedom.
 ChannelNoise guessed_noise(const VectorXd& residual, const VectorXd& prediction) {
   if (residual.size() == 0) return {};
   const double size = thresholds::first_noise_share * prediction.cwiseAbs().maxCoeff();
@@ -254,8 +254,8 @@ struct ChannelSizes {
 
 constexpr double constant_share = thresholds::min_constant_share, growing_share = 1 - constant_share;
 
-/// Of the noise's variance over the cells, where a share of it grows with the prediction, and of the whole a part with
-/// the scatter in time.
+/// How the noise's variance is spread over the cells: `share` of it grows with the prediction, and `part` of the whole
+/// with the scatter in time.
 VectorXd variance_shape(const ChannelData& data, double mean_square, double share, double part) {
   VectorXd shape =
       (1 - share) + share * (constant_share + growing_share * data.f.array().square() / std::max(mean_square, 1e-300));

@@ -34,12 +34,12 @@ struct NoiseFloor {
 class Whitening {
  public:
   Whitening(const Observations& observations, const NoiseFloor& noise, const Eigen::VectorXd& prediction);
-  /// The same where a cell is the mean of so many.
+  /// Whitens cells that are means, each of `counts` values.
   Whitening(const Observations& observations, const NoiseFloor& noise, const Eigen::VectorXd& prediction,
             const Eigen::VectorXd& counts);
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& columns) const;
   Eigen::VectorXd operator()(const Eigen::VectorXd& column) const;
-  /// The same where a term of whitened columns, each of a weight with a unit normal prior, counts as noise too.
+  /// This whitening with one more source of noise: whitened columns, each of a weight with a unit normal prior.
   Whitening beside(const Eigen::MatrixXd& columns) const;
   /// That term's columns in the cells' units; empty where there is none.
   Eigen::MatrixXd term() const;

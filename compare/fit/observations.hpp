@@ -39,7 +39,7 @@ struct Observations {
   std::vector<int> source_row;  ///< index into Campaign::runs
   std::vector<Cell> cells;      ///< ordered by row, then channel
   int conditions = 0;
-  /// Of each condition: those without a label that lie so near each other that they may be re-runs have one block. They
+  /// The block of each condition: those without a label, so near each other that they may be re-runs, share one and
   /// are left out together, so that no prediction rests on a re-run of what it predicts.
   std::vector<int> block;
 

@@ -83,7 +83,7 @@ inline constexpr double amplitude_range = 12.0;
 /// mean over these. Tuned: 0.5, 1, 2 gave 47 names on seed 94, 0.25 to 3 in five steps 49, these 50 of 60. The root of
 /// the share that the soil's values could not have made shrinks a tolerance (tuned among the powers 0, 1/2 and 1).
 inline constexpr std::array<double, 3> tolerance_scales = {0.3, 1.0, 2.0};
-/// The same for an instrument's zero or a tilt, which is what it is said to be, and for fits far from the noise.
+/// Scales of tolerance for an instrument's zero or a tilt, which is what it is said to be, and for fits far from noise.
 inline constexpr std::array<double, 2> narrow_tolerance_scales = {0.3, 1.0};
 /// Smooth functions of the conditions by which a form may differ from nature's equation. Chosen.
 inline constexpr int tolerance_functions = 6;
@@ -122,7 +122,7 @@ inline constexpr double odds_enough = 3.0;
 inline constexpr double second_test_level = 0.10, unexplained_share = 0.15;
 /// Lack of fit that says 'unknown' where no effect is named [p]. Tuned.
 inline constexpr double first_test_level = 0.02;
-/// The same against re-runs alone [p], and the share of the base model's excess over the re-runs that is left then [-].
+/// Lack of fit against re-runs alone [p], and the share of the base model's excess over them that is left then [-].
 /// Tuned on seeds 93 and 94: unknown flagged 23 -> 27 of 40, no right name lost, no false alarm.
 inline constexpr double rerun_level = 0.005, rerun_share = 0.5;
 /// Values that repeat a setpoint, of a channel, below which re-runs say next to nothing of the noise. Chosen.
@@ -147,7 +147,7 @@ inline constexpr double dominant_share = 0.9, dominant_test_level = 0.03, domina
 /// designs and 0.2 (rich) to 0.6 (poor) sets; ten times one truth on each kind, sets of 2.4 and more.
 /// Without the growth on small designs poor campaigns held the truth in 70 % of the sets, not 83 %.
 inline constexpr double allowed_behind = 4.0, allowed_growth = 0.03, few_values = 200.0, max_growth = 2.0;
-/// The same for sets that hold the best one and more [ln evidence]. Tuned: truth in the set 105 -> 106 of 120, rich
+/// How far sets that hold the best one and more may be behind [ln evidence]. Tuned: truth in it 105 -> 106 of 120, rich
 /// sets 1.36 -> 1.45.
 inline constexpr double superset_allowed = 2.0;
 
@@ -177,8 +177,8 @@ inline constexpr double learned_bend_power = 2.0;
 /// Learned forms that are fitted in full, of most evidence, in campaigns of at most max_searched_rows: with more runs
 /// the evidence tells the forms apart, and later_refits is enough. Chosen for time.
 inline constexpr std::size_t learned_refits = 3;
-/// The same of those that are learned beside another one. Chosen for time: with three the measured wheels learn the
-/// same forms, in a third more time.
+/// Forms fitted in full that are learned beside another one. Chosen for time: with three the measured wheels learn
+/// the same forms, in a third more time.
 inline constexpr std::size_t later_refits = 1;
 /// Learned effects, one beside the other, at the most. Chosen for time: of the smooth measured wheel the fourth takes
 /// less off the held-out error than the second or the third (docs/lab/loop-measured.md).

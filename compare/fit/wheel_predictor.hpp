@@ -66,7 +66,7 @@ struct PredictionSlopes {
   Eigen::MatrixXd entry_angle_slopes;  ///< of ln(theta_1), rows x parameters; zero where the soil gives way
   Eigen::VectorXd steepness;           ///< d ln(load carried)/d ln(theta_1) of each row; zero where the soil gives way
 
-  /// Of one row, whose cells are from .first to before .second: a parameter's slopes as those of another, times that.
+  /// Sets a parameter's slopes in one row, its cells from .first to before .second: those of `from`, times `times`.
   void take(Eigen::Index parameter, double times, Eigen::Index from, int row,
             std::pair<Eigen::Index, Eigen::Index> cells);
 };
@@ -102,9 +102,9 @@ class WheelPredictor {
  public:
   WheelPredictor(const Campaign& campaign, const Observations& observations, std::vector<Term> terms = {});
 
-  /// The same runs with these terms beside those there are.
+  /// A predictor of these runs with further terms.
   WheelPredictor with(const std::vector<Term>& more) const;
-  /// The same model over other runs, which outlive it.
+  /// This model over other runs, which outlive it.
   WheelPredictor over(const Observations& runs) const { return {*campaign_, runs, terms_}; }
 
   const std::vector<FreeParameter>& parameters() const { return parameters_; }

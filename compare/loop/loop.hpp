@@ -189,7 +189,7 @@ bool proposes_next(const LoopAnswer& answer);
 /// Names of the conditions of the next run that lie outside what was run, and for which no limit of the rig is given.
 std::vector<std::string> beyond_what_is_known(const NextRun& next);
 
-/// Of what the saved model leaves, or the base model where there is no other.
+/// How the residual of the saved model, or of the base model where there is no other, depends on conditions.
 const std::vector<Dependence>& dependences_left(const LoopAnswer& answer);
 
 /// At an unknown effect: what the residual depends on (dependences_left), surest first, as many as keep the

@@ -110,7 +110,7 @@ enum class CampaignUse { prediction, fit, design };
 Campaign read_campaign(const std::filesystem::path& path, const Library& library, const EffectVocabulary& effects,
                        CampaignUse use = CampaignUse::prediction);
 
-/// The same from texts in memory; `open` supplies the data file by the name that stands in the YAML.
+/// A campaign from texts in memory; `open` supplies the data file by the name that stands in the YAML.
 Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(const std::string&)>& open,
                         const Library& library, const EffectVocabulary& effects,
                         CampaignUse use = CampaignUse::prediction);

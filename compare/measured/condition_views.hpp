@@ -44,7 +44,7 @@ constexpr auto set_optional = [](OperatingCondition& at, double value) { at.*mem
 
 }  // namespace condition_members
 
-/// Those that a rig sets, then the order of the runs.
+/// The conditions that a rig sets, then the order of the runs.
 inline constexpr std::array<ConditionView, 11> condition_views = [] {
   using C = OperatingCondition;
   namespace m = condition_members;

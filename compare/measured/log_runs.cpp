@@ -322,10 +322,8 @@ LogRuns runs_of_log(const TimeLog& log) {
       out.left_out.push_back({log.line[rows.first], log.line[rows.last - 1], rows.size(), std::move(made.why)});
     }
   }
-  out.parted = fmt::format("Runs were separated by {}{}.",
-                           !log.part.empty() ? "the changes of " + log.parted_by
-                                             : std::string("the changes of slip, load and other conditions"),
-                           log.clock.empty() ? "" : ", and by breaks of the clock");
+  if (!log.part.empty()) out.parted_by = log.parted_by;
+  out.has_clock = !log.clock.empty();
   if (out.runs.empty()) {
     std::string why = out.left_out.front().why;
     for (const LeftOut& one : out.left_out)
@@ -335,21 +333,8 @@ LogRuns runs_of_log(const TimeLog& log) {
   }
   name_setpoints(log, out.runs);
   out.notes = log.notes;
-  const std::size_t sessions = std::set<std::size_t>(clock_parts.begin(), clock_parts.end()).size();
-  if (!log.clock.empty() && sessions < out.runs.size())
-    out.notes.push_back(
-        fmt::format("{} runs form {} unbroken period{} of time. Runs that follow each other on one bed share its "
-                    "differences, and a campaign takes each run for one on a freshly prepared bed.",
-                    out.runs.size(), sessions, sessions == 1 ? "" : "s"));
+  out.periods = std::set<std::size_t>(clock_parts.begin(), clock_parts.end()).size();
   return out;
-}
-
-std::string reduction_in_words() {
-  return "A mean is that of the steady part: transients are cut off at both ends by MSER-5 (White 1997). Its standard "
-         "error is by blocks of four autocorrelation times (Sokal 1997), so samples that follow each other do not "
-         "count "
-         "as independent; the effective number of samples is (sd/error)^2. This error is within the run: only re-runs "
-         "show how much another bed differs.";
 }
 
 std::string runs_csv(const LogRuns& made, const std::map<std::string, DataColumn>& named) {

@@ -19,7 +19,7 @@ inline constexpr double max_outlier_share = 0.1;
 
 }  // namespace thresholds
 
-/// Of values with these chances to lie as far off what the others say [-], those that noise alone does not put there.
+/// Values that noise alone does not put where they are; chances: to lie as far off what the others say [-].
 inline std::vector<bool> outliers(const std::vector<double>& chances) {
   const double seldom = thresholds::outlier_level / static_cast<double>(std::max<std::size_t>(chances.size(), 1));
   std::vector<bool> aside(chances.size());

@@ -100,8 +100,10 @@ struct LeftOut {
 struct LogRuns {
   std::vector<LoggedRun> runs;
   std::vector<LeftOut> left_out;
-  std::string parted;              ///< a sentence: how the runs were told from each other
-  std::vector<std::string> notes;  ///< sentences on the log, and on what a campaign of these runs takes for granted
+  std::string parted_by;           ///< headers whose changes part the runs; "": slip, load and other conditions do
+  bool has_clock = false;          ///< its breaks part runs, too
+  std::size_t periods = 0;         ///< unbroken ones of the clock that hold the runs
+  std::vector<std::string> notes;  ///< sentences on the log
 };
 
 /// Fewest samples of a run, and of its steady part (chosen).
@@ -109,15 +111,12 @@ inline constexpr std::size_t fewest_samples = 8;
 
 /// A run ends where a named part ends, where the clock goes back or stands still for more than ten steps, and, where
 /// nothing names the parts, where slip, load or another condition changes (stretches.hpp). Of each, the transients at
-/// both ends are cut off: by the latest of the MSER-5 cuts (White 1997) of all columns, where the samples cut off
+/// both ends are cut off: by the latest of the MSER-5 cuts of all columns, where the samples cut off
 /// differ from the rest by more than three standard errors and, of few samples, by three standard deviations;
 /// none where half of the run or more would go. A run whose conditions go on changing is a ramp and is left out; one
 /// whose channel's halves differ by more than four standard errors is doubted. Runs at like conditions share a
 /// setpoint. Throws InputError where no run is left.
 LogRuns runs_of_log(const TimeLog& log);
-
-/// A sentence: how means, errors and effective numbers of samples were made, with their sources.
-std::string reduction_in_words();
 
 /// The runs as the CSV of a campaign, with each channel's standard deviation in time and error of the mean; numbers to
 /// six digits, under the names and in the units of `named`.

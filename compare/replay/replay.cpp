@@ -22,7 +22,7 @@ namespace {
 constexpr double most_steps = 65535;
 constexpr std::size_t largest_replay = 256U << 20U;  // [bytes]; a page with one is a third larger
 
-/// Of the bytes before they are compressed: what a browser takes in one piece.
+/// Bytes before compression that a browser takes in one piece.
 constexpr std::uint64_t largest_payload = 2ULL << 30U;
 
 /// The grid on which places are told.
@@ -121,13 +121,13 @@ void add_pressing(const Replay& replay, const std::vector<std::size_t>& order, P
           std::lround(255 * std::sqrt(std::clamp(frame.pressing.empty() ? 0.0 : frame.pressing[k] / most, 0.0, 1.0)))));
 }
 
-/// Of the bytes before they are compressed.
+/// Number of bytes before they are compressed.
 std::uint64_t payload_size(std::uint64_t grains, std::uint64_t frames, std::uint64_t vertices, std::uint64_t triangles,
                            bool with_pressing) {
   return 4 * grains + 12 * vertices + 12 * triangles + (with_pressing ? 7 : 6) * grains * frames;
 }
 
-/// The same as the header has it; counts have 32 bits, so that their products do not overflow.
+/// Number of bytes by a replay's header; counts have 32 bits, so that their products do not overflow.
 std::uint64_t payload_size(const Json& header, const std::string& place) {
   const auto count = [&](const char* key) {
     const Json& value = header.at(key);

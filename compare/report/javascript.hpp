@@ -13,7 +13,7 @@ struct EmbeddedFile {
   std::string name, text;
 };
 
-/// Those of compare/report/browser; made by the build.
+/// The files of compare/report/browser; made by the build.
 std::vector<EmbeddedFile> own_files();
 
 /// The text of one of the files. Throws std::out_of_range where there is none of that name.

@@ -98,7 +98,7 @@ std::vector<double> ticks(double lower, double upper, int count);
 /// "shift" [px] of the points; "band": false where errors are told and not drawn.
 nlohmann::ordered_json to_json(const Sheet& sheet);
 
-/// The same as CSV, a row a point: plot, series, x, y (of an area what it adds to the pile), error.
+/// A sheet as CSV, a row a point: plot, series, x, y (of an area what it adds to the pile), error.
 std::string sheet_csv(const Sheet& sheet);
 
 }  // namespace soilbin::compare

@@ -77,7 +77,7 @@ class Frame {
     if (plot.identity_line) x.take(y.lower), x.take(y.upper), y.take(x.lower), y.take(x.upper);
     x_ = with_room(x, plot.x, 0.02);
     y_ = with_room(y, plot.y, 0.05);
-    // Of a single place: points that stand beside each other there would be read at other ticks.
+    // A single place has one tick: points beside each other there would be read at other ones.
     x_ticks = x.length() == 0.0 ? std::vector{x.lower} : ticks(x_.lower, x_.upper, 6);
     y_ticks = ticks(y_.lower, y_.upper, 5);
     std::size_t longest = 1;

@@ -10,7 +10,7 @@
 
 namespace soilbin::compare {
 
-/// Of a record, a store or what else is kept in JSON [bytes].
+/// Largest record, store or other file kept in JSON [bytes].
 inline constexpr std::size_t largest_json = 256U << 20U;
 /// Levels of lists and objects; ours have fewer than ten.
 inline constexpr int deepest_json = 32;

@@ -223,8 +223,8 @@ struct Reproduction {
 /// Every finding on every label's answers. A label without the finding's study has no data.
 Reproduction reproduce(const Findings& findings, const std::vector<StudyAnswers>& studies);
 
-/// The same answers without their errors. Those of the analytic model come from the soil's values, which all conditions
-/// share: taken for noise of each point they would hide every trend.
+/// Answers without their errors. The analytic model's come from the soil's values, which all conditions share: taken
+/// for noise of each point they would hide every trend.
 std::vector<Answer> taken_as_exact(std::vector<Answer> answers);
 
 /// A record's answers to conditions, with errors as RecordedModel tells them. `remark` says what was done.

@@ -9,7 +9,6 @@
 #include <map>
 #include <set>
 
-#include "bekker_wong/presumption.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/condition_axes.hpp"
 #include "scenario/description.hpp"
@@ -189,49 +188,6 @@ Case with_smooth_curves(Case question, int points, const ConditionView& abscissa
 }
 
 std::string in_words(const Soil& soil) { return soil.name.empty() ? "a soil of its own (unnamed)" : soil.name; }
-
-std::string errors_in_words(const Scenario& asked) {
-  if (!asked.soil.semi_empirical) return "";
-  const SemiEmpiricalSoil& s = *asked.soil.semi_empirical;
-  std::string declared, assumed, exact;
-  const auto add = [](std::string& list, const char* symbol) {
-    list += (list.empty() ? "" : ", ") + std::string(symbol);
-  };
-  for (const SoilParameter& p : soil_parameters) {
-    const Estimate& value = s.*p.value;
-    add(has_assumed_sd(s, value) ? assumed : value.std_error > 0.0 ? declared : exact, p.symbol);
-  }
-  if (bekker_wong::errs_by_carcass(asked.tire, asked.effects)) add(declared, "p_c");
-  std::string together =
-      asked.errors.empty() ? "" : " The model's fit says how values of the soil and of its effects err together.";
-  if (const double missed = asked.misfit.front(); missed > 0.0)
-    together += fmt::format(" It includes the fit's own misfit, in the drawbar pull {}.", newtons(missed));
-  if (declared.empty() && assumed.empty())
-    return together.empty() ? "No ±: all values of the soil count as exact." : "± is one standard error." + together;
-  std::string text = "± is one standard error from the standard deviations of ";
-  if (!declared.empty()) text += declared + (assumed.empty() ? "" : " (declared) and ");
-  if (!assumed.empty()) text += fmt::format("{} (assumed: {:g} %, no source)", assumed, 100 * *s.assumed_sd);
-  return text +
-         (exact.empty() ? "."
-                        : "; " + exact + (exact.find(',') == std::string::npos ? " counts" : " count") + " as exact.") +
-         together;
-}
-
-std::string errors_in_words(const Case& question) {
-  const auto analytic = std::ranges::find(question.study.models, ModelKind::bekker_wong, &ModelChoice::model);
-  const bool has_analytic = analytic != question.study.models.end();
-  std::string text = has_analytic ? errors_in_words(seen_by(*analytic, question.scenario)) : "";
-  const auto add = [&](ModelKind kind, const char* name, const std::string& values) {
-    if (asks(question.study, kind))
-      text += text.empty() ? "± is one standard error from " + values : fmt::format(" {}: from {}", name, values);
-  };
-  const Soil& soil = question.scenario.soil;
-  add(ModelKind::rft, "Resistive force theory", "the standard deviations of xi_n and surface friction.");
-  add(ModelKind::cone_index, "Cone index",
-      fmt::format("the standard deviation of the {}; how far tires scatter about the relation is not in it.",
-                  soil.cone_index ? "cone index" : "cone index gradient"));
-  return text;
-}
 
 std::string in_words(const OperatingCondition& at) {
   const auto has_a_place = [](std::string_view name) { return name == "slip" || name == "load" || name == "speed"; };

@@ -42,13 +42,6 @@ Case with_smooth_curves(Case question, int points, const ConditionView& abscissa
 /// The soil's name, or what to call one that a case describes and doesn't name.
 std::string in_words(const Soil& soil);
 
-/// What the ± of an answer holds: which values of the soil have standard deviations of their own, which assumed ones,
-/// which count as exact, and whether a fit says how they err together. For the first lines of an answer; "" for a soil
-/// of grains alone.
-std::string errors_in_words(const Scenario& asked);
-/// Of a question: as its first model sees it.
-std::string errors_in_words(const Case& question);
-
 /// The condition in words, with what is not at its default: "load 80 N, slip 20 %, yaw 5 deg".
 std::string in_words(const OperatingCondition& at);
 

@@ -37,7 +37,7 @@ bekker_wong::RollingWheel wheel_of(const Scenario& scenario) {
   return wheel_of(scenario, choice);
 }
 
-/// The same for a smooth line: closer together towards the steepest one, where the slip turns up.
+/// Slopes for a smooth line: closer together towards the steepest one, where the slip turns up.
 std::vector<double> many_slopes_up_to(double steepest) {
   constexpr int points = 41;
   if (steepest <= 0.0) return {0.0};
@@ -69,7 +69,7 @@ double error_of_root(const Scenario& scenario, const OperatingCondition& at, dou
   return here.result->drawbar_pull.std_error * (above.*x - below.*x) / std::abs(rise);
 }
 
-/// Of the steepest slope, at the slip of the largest pull there or of the largest that is allowed.
+/// Standard error of the steepest slope, at the slip of the largest pull there or of the largest that is allowed.
 double error_of_steepest(const Scenario& scenario, const OperatingCondition& at) {
   return error_of_root(scenario, at, &OperatingCondition::longitudinal_incline, at.longitudinal_incline + 1.0);
 }

@@ -46,7 +46,7 @@ struct WheelLimits {
   bool at_every_speed = false;  ///< of the question's: the same answer
 };
 
-/// Of each analytic model at each condition of the question, slip and longitudinal incline left aside; conditions that
+/// Limits by each analytic model at each condition of the question, slip and incline left aside; conditions that
 /// differ in nothing else count once, and those that differ in a speed that changes nothing too. With standard errors
 /// to first order, from those of soil and effects. max_slip, 0 .. 1: of the slope that is climbed with so little slip,
 /// beside the theoretical one, at which the wheel may slip by 100 %. Throws InputError for another model.

@@ -49,7 +49,7 @@ Report report_on(const Case& question, const StudyResults& results, const std::s
 /// The equations with their values, the effects and the closed forms, each group under its heading.
 std::string equations_text(const Explanation& explanation);
 
-/// Of each condition the answer, the budget of forces, the equations with the values put in, closed forms to check by;
+/// The answer at each condition, the budget of forces, the equations with values put in, closed forms to check by;
 /// then where the values come from.
 Report report_on(const Case& question, const std::vector<Explained>& explained);
 

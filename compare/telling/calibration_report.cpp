@@ -121,6 +121,23 @@ nlohmann::ordered_json to_json(const Decision& decision) {
 
 namespace {
 
+/// Where the error of an analysis of variance comes from.
+std::string error_of_analysis(const AnalysisOfVariance& analysis) {
+  switch (analysis.error_from) {
+    case ErrorFrom::known_noise:
+      return "Error: the runs' own standard errors. What is left over beyond them is interactions of factors.";
+    case ErrorFrom::free_columns:
+      return fmt::format("Error: the columns without a factor, {} degrees of freedom; interactions are in it.",
+                         analysis.left.freedom);
+    case ErrorFrom::pooled_factors:
+      break;
+  }
+  std::string names;
+  for (const VarianceRow& row : analysis.factors)
+    if (row.pooled) names += (names.empty() ? "" : ", ") + row.source;
+  return "Error: no column is free, so the weakest factors are pooled (" + names + "); the p-values are too small.";
+}
+
 std::string value_with_unit(const Estimate& value, const std::string& unit) {
   return number(value, per_unit(unit)) + unit_behind(unit);
 }
@@ -264,7 +281,7 @@ std::vector<std::string> calibration_sentences(const VirtualTest& test, const Ca
   if (calibration.analyses.empty())
     said.push_back("A run of the design failed, so it has no range analysis; the surrogate learnt from the others.");
   else
-    said.push_back(sentence(calibration.analyses[0].variance));
+    said.push_back(error_of_analysis(calibration.analyses[0].variance));
   for (std::size_t j = 0; j < test.factors.size(); ++j)
     if (calibration.learned[j] < 0.2)
       said.push_back(fmt::format("These targets hardly determine {}: {} is as good as the bounds.",
@@ -422,7 +439,7 @@ Json analysis_json(const VirtualTest& test, const TargetAnalysis& analysis) {
           {"order", order},
           {"variance", rows},
           {"total", analysis.variance.total},
-          {"error", sentence(analysis.variance)}};
+          {"error", error_of_analysis(analysis.variance)}};
 }
 
 Json runs_json(const VirtualTest& test, const Calibration& calibration) {

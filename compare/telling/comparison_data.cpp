@@ -87,7 +87,7 @@ std::string remarks_of(const Comparison& comparison, const Difference& d) {
 Json comparison_json(const Comparison& comparison, const ComparisonAbout& about) {
   const Study& study = comparison.question.study;
   Json json = {{"format", "soilbin-compare/1"}, {"study", study.name}, {"summary", Json::array()}};
-  for (const Clause& clause : summary(comparison, about.loop ? &about.loop->answer : nullptr)) {
+  for (const Clause& clause : summary(comparison, about.loop ? &*about.loop : nullptr)) {
     Json evidence = Json::array();
     for (const ClauseEvidence one : clause.evidence) evidence.push_back(word(one));
     json["summary"].push_back(

@@ -12,6 +12,7 @@
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/telling/loop_report.hpp"
+#include "compare/telling/reports.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -221,7 +222,7 @@ void add_replay(Report& report, const ReplayFile& file) {
       Told::on_pages, "replay");
 }
 
-void add_method(Report& report, const Comparison& comparison, const LoopAnswer* loop) {
+void add_method(Report& report, const Comparison& comparison, const LoopOfComparison* loop) {
   report.add("Every point", Prose{}, Told::on_pages, "points");
   for (const Side& side : comparison.sides)
     report.add(Fold{name_of(side), [&comparison, &side] { return Parts{{points_table(comparison, side)}}; }});
@@ -265,7 +266,7 @@ Report report_on(const Comparison& comparison, const ComparisonAbout& about) {
   report.add(WarningsHere());
   add_differences(report, comparison);
   if (about.replay) add_replay(report, *about.replay);
-  add_method(report, comparison, about.loop ? &about.loop->answer : nullptr);
+  add_method(report, comparison, about.loop ? &*about.loop : nullptr);
   std::vector<std::string> labels;
   for (const Side& side : comparison.sides) labels.push_back(side.label);
   report.made_of = names_and_ids(labels);

@@ -91,7 +91,7 @@ std::string measure_of(const Tally& tally);
 
 /// The opening; then how far each pair is apart, channel by channel, largest first; what of it counts; where it comes
 /// from; what the loop, where it was run, says is missing; and what the comparison cannot tell.
-std::vector<Clause> summary(const Comparison& comparison, const LoopAnswer* loop = nullptr);
+std::vector<Clause> summary(const Comparison& comparison, const LoopOfComparison* loop = nullptr);
 
 // The tables of a comparison, for its page, its Markdown and a terminal: channel by channel, row by row, point by
 // point.

@@ -328,16 +328,13 @@ std::vector<Clause> limits_of_the_comparison(const Comparison& comparison) {
   return clauses;
 }
 
-std::vector<Clause> summary(const Comparison& comparison, const LoopAnswer* loop) {
+std::vector<Clause> summary(const Comparison& comparison, const LoopOfComparison* loop) {
   std::vector<Clause> clauses = opening(comparison);
   for (const Tally* t : widest_first(comparison)) clauses.push_back(tally_clause(comparison, *t));
   for (const JointTest& test : comparison.joint) clauses.push_back(joint_clause(comparison, test));
   for (Clause& clause : cause_clauses(comparison)) clauses.push_back(std::move(clause));
-  if (loop != nullptr) {
-    std::string text = verdict_sentence(*loop);
-    for (const std::string& sentence : explanation(*loop)) text += " " + sentence;
-    clauses.push_back({"what is missing", text, {ClauseEvidence::loop}});
-  }
+  if (loop != nullptr)
+    for (Clause& clause : missing_clauses(*loop)) clauses.push_back(std::move(clause));
   for (Clause& clause : limits_of_the_comparison(comparison)) clauses.push_back(std::move(clause));
   return clauses;
 }

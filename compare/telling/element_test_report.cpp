@@ -100,7 +100,7 @@ Table told_beside(const std::vector<FeatureBeside>& features, Json& values) {
   return table;
 }
 
-/// Of a test; `table` is empty where it has one run, which the sentences tell.
+/// The report of a test; `table` is empty where it has one run, which the sentences tell.
 Report report_of(const char* test, const std::string& soil, Table table, std::vector<std::string> sentences,
                  const Json& values, Sheet sheet) {
   Report report{sheet.title + ": " + soil, "A simulated laboratory test of the grains.",

@@ -137,38 +137,6 @@ std::string error_sentence(const FailureMapResult& result) {
                      100 * result.map.held_out.rms());
 }
 
-std::string coordinates_sentence(const FailureMapResult& result) {
-  if (result.coordinates.empty()) return "";
-  std::string text = "Left out one at a time, a map in";
-  for (const Coordinates& c : result.coordinates)
-    text +=
-        fmt::format("{} ({}) is off by {:.1f} %", &c == result.coordinates.data() ? "" : ",", c.name, 100 * c.held_out);
-  const double plain = result.coordinates.front().held_out;
-  const auto best = std::ranges::min_element(result.coordinates,
-                                             [](const auto& a, const auto& b) { return a.held_out < b.held_out; });
-  if (best == result.coordinates.begin()) return text + ": no group of these does better than the numbers as set.";
-  return text + fmt::format(": ({}) does better than the numbers as set, by {:.0f} % of their error.", best->name,
-                            100 * (1 - best->held_out / plain));
-}
-
-/// The same for people: what was tried, and whether it is of use.
-std::string coordinates_in_words(const FailureMapResult& result) {
-  if (result.coordinates.empty()) return "";
-  const double plain = result.coordinates.front().held_out;
-  const auto best = std::ranges::min_element(result.coordinates,
-                                             [](const auto& a, const auto& b) { return a.held_out < b.held_out; });
-  const std::string text = fmt::format(
-      "Would ratios without units predict better than load, lug height, angle and slip themselves? We learnt the map "
-      "again from such ratios (the load number, which is the load over the weight of soil of the wheel's width and "
-      "radius squared; the lugs' height over the "
-      "sinkage at rest) and let it predict each condition from all others. With the quantities themselves it errs by "
-      "{:.1f} % of the load",
-      100 * plain);
-  return text + (best == result.coordinates.begin()
-                     ? ", with each set of ratios by more: the quantities themselves serve best."
-                     : fmt::format(", with {} by {:.1f} %: these serve better.", best->name, 100 * best->held_out));
-}
-
 std::string checks_sentence(const FailureMapResult& result) {
   std::size_t found = 0, within = 0, right = 0;
   for (const FreshCheck& check : result.checks)
@@ -311,23 +279,6 @@ std::string decided_sentence(const FailureMapResult& result) {
       100 * result.question.tolerance, 100 * shares.agree, 100 * shares.differ, 100 * shares.undecided);
 }
 
-/// Sentences, the most important first: how much of the box disagrees and to which side, where the models agree, how
-/// well the map knows, what dimensionless groups do, what fresh conditions showed.
-std::vector<std::string> map_summary(const FailureMapResult& result) {
-  std::vector<std::string> text = {rows_sentence(result)};
-  text.push_back(fmt::format("The error exceeds {:.3g} % of the load in {:.0f} % of the range by the best estimate.",
-                             100 * result.question.tolerance, 100 * result.shares.beyond));
-  text.push_back(decided_sentence(result));
-  for (const AgreementClause& clause : result.clauses)
-    text.push_back(fmt::format("{}: within {:.3g} % of the load {}.", result.question.name,
-                               100 * result.question.tolerance, box_in_words(result.question, clause)));
-  if (result.clauses.empty()) text.push_back(without_a_box(result));
-  text.push_back(error_sentence(result) + " " + scatter_sentence(result));
-  for (const std::string& more : {coordinates_sentence(result), checks_sentence(result)})
-    if (!more.empty()) text.push_back(more);
-  return text;
-}
-
 /// Where the quick estimate may be trusted; where not and to which side it errs; how sure that is.
 /// `grains`: how far off the grains are themselves, where that is not told before.
 std::vector<std::pair<std::string, std::string>> trust_in_words(const FailureMapResult& result,
@@ -369,11 +320,12 @@ std::string in_short(const FailureMapResult& result) {
           : "");
 }
 
-/// Scatter of the rows, whether ratios without units would serve better.
-std::vector<std::string> details(const FailureMapResult& result) {
-  std::vector<std::string> text = {scatter_sentence(result)};
-  if (std::string groups = coordinates_in_words(result); !groups.empty()) text.push_back(std::move(groups));
-  return text;
+/// What a terminal says, for JSON.
+std::vector<std::string> in_sentences(const FailureMapResult& result) {
+  std::vector<std::string> all;
+  for (const auto& [about, text] : trust_in_words(result, grains_sentence(result))) all.push_back(about + ": " + text);
+  all.push_back(scatter_sentence(result));
+  return all;
 }
 
 Table rows_table(const FailureMapResult& result) {
@@ -400,12 +352,6 @@ Table rows_table(const FailureMapResult& result) {
                                  judged_in_words(result.map.judged(result.question, row.values))});
     table.add(std::move(cells));
   }
-  return table;
-}
-
-Table coordinates_table(const FailureMapResult& result) {
-  Table table{"What the map may see, and its error with each row left out", {"coordinates", "error [% of the load]"}};
-  for (const Coordinates& c : result.coordinates) table.add({c.name, fmt::format("{:.2f}", 100 * c.held_out)});
   return table;
 }
 
@@ -449,7 +395,7 @@ Json failure_map_json(const FailureMapResult& result) {
   const MapShares& shares = result.shares;
   Json document = {
       {"format", "soilbin-failure-map/1"},      {"incline", name_of(result.asked.incline)},
-      {"tolerance", result.question.tolerance}, {"summary", map_summary(result)},
+      {"tolerance", result.question.tolerance}, {"summary", in_sentences(result)},
       {"share_beyond", shares.beyond},          {"cross_validated_error", finite(result.map.held_out.rms())}};
   document["of"] = word_of(result.asked.of), document["against"] = word_of(result.asked.against);
   document["shares"] = {{"agree", shares.agree}, {"differ", shares.differ}, {"undecided", shares.undecided}};
@@ -467,9 +413,6 @@ Json failure_map_json(const FailureMapResult& result) {
     json["resolution_error"] = or_null(row.resolution_error);
     json["judged"] = word_of(result.map.judged(result.question, row.values));
     return json;
-  });
-  document["coordinates"] = list_of(result.coordinates, [](const Coordinates& c) {
-    return Json{{"name", c.name}, {"held_out", finite(c.held_out)}};
   });
   document["checks"] = list_of(result.checks, [&](const FreshCheck& check) {
     Json json = values_json(factors, check.values);
@@ -513,7 +456,7 @@ Report report_on(const FailureMapResult& result, const FailureMapAbout& about) {
   report.add("The answer in full", Sentences(trust_in_words(result, "")), Told::on_pages, "answer",
              ReportPart::Heading::place);
   report.add(Sentences(trust_in_words(result, grains)), Told::in_text);
-  report.add(Items{details(result)});
+  report.add(Items{{scatter_sentence(result)}});
   report.add(WarningsHere());
   report.add(Fold{"The map at its corners, side by side", [&result] { return corners(result); }});
   report.add("What it rests on", Prose{}, Told::on_pages, "rows");
@@ -521,13 +464,11 @@ Report report_on(const FailureMapResult& result, const FailureMapAbout& about) {
                   [&result] { return std::vector<ReportPart>{{rows_table(result)}}; }});
   if (!result.lug_gains.empty())
     report.add(Fold{"What lugs bring", [&result] { return std::vector<ReportPart>{{lugs_table(result)}}; }});
-  report.add(Fold{"Other coordinates", [&result] { return std::vector<ReportPart>{{coordinates_table(result)}}; }});
   if (!result.checks.empty())
     report.add(
         Fold{"Checks on fresh conditions", [&result] { return std::vector<ReportPart>{{checks_table(result)}}; }});
   if (about.show_rows) report.add(rows_table(result), Told::on_terminals);
   if (!result.lug_gains.empty()) report.add(lugs_table(result), Told::on_terminals);
-  report.add(coordinates_table(result), Told::on_terminals);
   if (!result.checks.empty()) report.add(checks_table(result), Told::on_terminals);
   report.resolved_case = about.resolved_case;
   report.data = [&result] { return failure_map_json(result); };

@@ -53,8 +53,8 @@ std::vector<BackedSentence> headline(const LoopAnswer& answer, const std::vector
 /// testable.
 std::vector<std::string> notes(const LoopAnswer& answer);
 
-/// Headline without the verdict, the parameters of the effects, notes: one string a sentence.
-std::vector<std::string> explanation(const LoopAnswer& answer);
+/// All that is said without tables: the headline, the parameters of the effects, the notes.
+std::vector<std::string> in_sentences(const LoopAnswer& answer);
 
 /// "held-out error falls by 28 +- 5 sigma^2 a value; predicted better: sinkage (20.6 to 7.04 mm); predicted worse:
 /// drawbar pull (5.95 to 6.30 N)".

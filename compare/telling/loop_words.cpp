@@ -676,14 +676,12 @@ std::vector<std::string> notes(const LoopAnswer& answer) {
   return sentences;
 }
 
-std::vector<std::string> explanation(const LoopAnswer& answer) {
+std::vector<std::string> in_sentences(const LoopAnswer& answer) {
   std::vector<std::string> sentences;
-  if (const std::string odds = odds_clause(answer); !odds.empty()) sentences.push_back(capital(odds) + ".");
-  if (std::string more = beside_the_verdict(answer); !more.empty()) sentences.push_back(std::move(more));
-  if (std::string proxies = proxy_sentence(answer); !proxies.empty()) sentences.push_back(std::move(proxies));
+  for (BackedSentence& said : headline(answer, {}))
+    for (std::string* part : {&said.text, &said.detail})
+      if (!part->empty()) sentences.push_back(std::move(*part));
   for (const AcceptedEffect& effect : answer.effects_in_model()) sentences.push_back(effect_sentence(effect));
-  if (answer.validation.overall.cells > 0) sentences.push_back(error_sentence(answer));
-  for (std::string& sentence : what_next(answer)) sentences.push_back(std::move(sentence));
   for (std::string& sentence : notes(answer)) sentences.push_back(std::move(sentence));
   return sentences;
 }

@@ -5,6 +5,7 @@
 //   fmt::print("{}", text_of(report));
 #pragma once
 
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
@@ -41,12 +42,14 @@ struct BevameterReadings;
 struct Campaign;
 struct CompiledC;
 struct CompressionCurve;
+struct DataColumn;
 struct DrivenAnswers;
 struct DriveSides;
 struct FailureMapResult;
 struct ForceTable;
-struct GoMap;
 struct Finding;
+struct GoMap;
+struct LogRuns;
 template <class Test>
 struct MeasuredBeside;
 struct MeasuredPlate;
@@ -64,6 +67,13 @@ struct WheelFmu;
 struct WheelLimits;
 struct WheelSlipFit;
 
+/// What the ± of an answer holds: which values of the soil have standard deviations of their own, which assumed ones,
+/// which count as exact, and whether a fit says how they err together. For the first lines of an answer; "" for a soil
+/// of grains alone.
+std::string errors_in_words(const Scenario& asked);
+/// errors_in_words of a question, as its first model sees it.
+std::string errors_in_words(const Case& question);
+
 /// What a wheel can do at best: of each answer a table over the slopes and what the steepest one is. `at_limits`:
 /// answers_at_limits of the answers, to which each row's remark belongs.
 Report report_on(const Case& question, const std::vector<WheelLimits>& answers,
@@ -76,6 +86,10 @@ nlohmann::ordered_json limits_rows(const std::vector<WheelLimits>& answers);
 /// and not fitted".
 Report report_on(const Prediction& prediction, const Campaign& campaign, const Scenario& asked,
                  const std::string& soil_from);
+
+/// The runs found in a rig's time log: each one's lines, setpoint and means, what was left out, how means are made; the
+/// CSV is a campaign's runs.csv under the names and in the units of `named`; soilbin-runs/1. `file`: the log's name.
+Report report_on(const LogRuns& made, const std::string& file, const std::map<std::string, DataColumn>& named);
 
 /// How far off a prediction is, a row a channel; `header` names the columns.
 Table channel_errors_table(const Prediction& prediction, std::string caption, std::vector<std::string> header);

@@ -225,7 +225,7 @@ Json reproduction_json(const Reproduction& reproduction) {
   return document;
 }
 
-/// Of each label how many findings it shows, contradicts and leaves open, then the findings that every model with data
+/// How many findings each label shows, contradicts and leaves open, then the findings that every model with data
 /// contradicts.
 std::vector<std::pair<std::string, std::string>> conclusions(const Reproduction& reproduction) {
   const std::vector<ReproducedFinding>& rows = reproduction.rows;

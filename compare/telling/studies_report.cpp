@@ -236,7 +236,7 @@ std::vector<Answer> on_curve(const std::vector<Answer>& answers, const std::stri
 
 using StudyParts = std::vector<ReportPart>;
 
-/// Those of a study's curves that are one, and their answers.
+/// The figure of one of a study's curves.
 Figure figure_of_curve(const StudyPart& part, const Curves& curves, std::size_t c) {
   Case one = part.curves;
   one.study.conditions.clear();

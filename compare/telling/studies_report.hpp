@@ -32,7 +32,7 @@ Report report_on(const std::vector<StudyPart>& studies, const std::vector<Campai
 /// Sentences about a study, computed from its answers: the largest pull, the best efficiency, what changes them.
 std::string in_words(const StudyPart& part);
 
-/// The same about a campaign: how far off the predictions are, and in which direction.
+/// Sentences about a campaign: how far off the predictions are, and in which direction.
 std::string in_words(const CampaignPart& part);
 
 }  // namespace soilbin::compare

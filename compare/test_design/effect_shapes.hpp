@@ -36,7 +36,7 @@ struct EffectShapes {
   std::vector<std::string> ids;        ///< effects that these conditions can show
   std::vector<std::string> not_shown;  ///< those of the wanted ones that they can't
   std::vector<EffectShape> shapes;     ///< of these effects
-  /// Of each condition the slopes of its channels, whitened: a row a channel, a column a shape, then the soil's J.
+  /// Whitened slopes of the channels, by condition: a row a channel, a column a shape, then the soil's J.
   std::vector<Eigen::MatrixXd> sensitivities;
   NoiseFloor noise;       ///< of one run
   Eigen::Index soil = 0;  ///< columns of J, in units of the priors' sd

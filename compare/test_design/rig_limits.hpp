@@ -22,7 +22,7 @@ Limits ranges_of(const Observations& observations);
 /// little beyond them.
 Limits limits_of(const Observations& observations);
 
-/// The same for the next run of a wheel: a pneumatic tire is let out or pumped up at every rig, about its declared
+/// Limits for the next run of a wheel: a pneumatic tire is let out or pumped up at every rig, about its declared
 /// pressure (thresholds::lowest_pressure_share and its neighbour) where the runs span none.
 Limits limits_of(const Observations& observations, const Tire& wheel);
 

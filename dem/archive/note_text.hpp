@@ -1,7 +1,7 @@
 // Values as the text of a note in a restart, exact both ways: numbers in full precision with blanks between, words by
 // their length. What a struct holds is said once, for writing and reading:
 //
-//   template <class Notes> void parts(Notes& notes, Vec3& v) { notes(v.x, v.y, v.z); }
+//   template <class Notes> void archive(Notes& notes, Vec3& v) { notes(v.x, v.y, v.z); }
 #pragma once
 
 #include <fmt/core.h>
@@ -21,7 +21,7 @@
 namespace soilbin::dem {
 
 template <class Notes>
-void parts(Notes& notes, Vec3& v) {
+void archive(Notes& notes, Vec3& v) {
   notes(v.x, v.y, v.z);
 }
 
@@ -42,7 +42,7 @@ class NoteWriter {
     else if constexpr (std::is_arithmetic_v<T>)
       fmt::format_to(std::back_inserter(text_), "{} ", value);
     else
-      parts(*this, value);
+      archive(*this, value);
   }
   void put(std::string& words) { fmt::format_to(std::back_inserter(text_), "{} {} ", words.size(), words); }
   template <class T>
@@ -90,7 +90,7 @@ class NoteReader {
       if (error != std::errc()) refuse();
       skip(static_cast<std::size_t>(end - text_.data()));
     } else {
-      parts(*this, value);
+      archive(*this, value);
     }
   }
   void get(std::string& words) {

@@ -24,7 +24,7 @@ BedRecipe specimen_recipe(const GranularSoil& soil, const BedSize& size, const S
   recipe.settling_friction = settings.settling_friction;
   recipe.dt = settings.dt;
   recipe.laws = settings.laws;
-  // It is pressed next, so it need not lie as still as a bed: a single grain that rocks would keep a box from rest.
+  // A specimen is pressed next, so it need not be as still as a bed: one grain that rocks would keep a box from rest.
   recipe.rest.kinetic *= 100;
   return recipe;
 }

@@ -19,7 +19,7 @@
 
 namespace soilbin::dem {
 
-/// Of a grain that comes in and is held.
+/// The mass of a grain that comes in and is held.
 inline constexpr double held_mass = std::numeric_limits<double>::infinity();
 
 /// A contact of two grains that is there when they have come in or are let go; memory of the first against the second.
@@ -28,7 +28,7 @@ struct BroughtContact {
   std::array<double, memory_size> memory{};
 };
 
-/// The same of a grain on a surface; contact.who.grain is not read.
+/// A contact that comes in, of a grain on a surface; contact.who.grain is not read.
 struct BroughtOnSurface {
   GrainId grain = 0;
   SurfaceContact contact;

@@ -10,12 +10,12 @@ namespace soilbin::dem {
 namespace fs = std::filesystem;
 
 template <class Notes>
-void parts(Notes& notes, GrainFraction& fraction) {
+void archive(Notes& notes, GrainFraction& fraction) {
   notes(fraction.radius, fraction.share);
 }
 
 template <class Notes>
-void parts(Notes& notes, BedRecipe& recipe) {
+void archive(Notes& notes, BedRecipe& recipe) {
   auto& [soil, size, packing, grading, settling_friction, gravity, dt, laws, rest, settled_by, periodic] =
       recipe;  // LAMMPS settles none that is periodic
   auto& [radius_min, radius_max, density, gravity_there, young, poisson, rolling, twisting, cohesion, shape, sizes,
@@ -30,7 +30,7 @@ void parts(Notes& notes, BedRecipe& recipe) {
 }
 
 template <class Notes>
-void parts(Notes& notes, BedReport& report) {
+void archive(Notes& notes, BedReport& report) {
   notes(report.grains, report.height, report.void_ratio, report.bulk_density, report.coordination, report.rattlers,
         report.overlap, report.unrest.kinetic, report.unrest.unbalanced, report.settling_time);
 }

@@ -25,7 +25,7 @@ void write_bed_report(const std::filesystem::path& folder, const BedReport& repo
 BedReport read_bed_report(const std::filesystem::path& folder);
 
 template <class Notes>
-void parts(Notes& notes, ContactPair& pair) {
+void archive(Notes& notes, ContactPair& pair) {
   auto& [restitution, sliding_friction, rolling_friction, rolling_damping, cohesion, rolling_stiffness,
          work_of_adhesion] = pair;  // LAMMPS takes no jkr
   notes(restitution, sliding_friction, rolling_friction, rolling_damping, cohesion, rolling_stiffness);

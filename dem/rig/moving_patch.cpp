@@ -15,10 +15,10 @@ namespace {
 /// Ids are numbered tile by tile; that of x = 0 is not the first, because the patch begins before it.
 constexpr std::int64_t tiles_before = 2;
 
-/// Of one tile to its neighbours at most: a contact reaches no farther.
+/// Tiles that a contact spans beside its own: one tile touches its neighbours at most.
 constexpr std::int64_t reach_in_tiles = 1;
 
-/// The same contact, of a grain of a tile.
+/// A surface contact as a tile keeps it, by the grain's number in the tile.
 TileOnSurface on_surface(const SurfaceContact& made, std::uint32_t grain) {
   const auto& [slide, roll] = made.memory;
   return {.grain = grain,
@@ -113,8 +113,8 @@ void visit_between(const Tile& tile, double from, double to, const Visit& visit)
 
 }  // namespace
 
-/// Of the copies with from <= x < to, contacts for whose ends `wanted` holds, and those with surfaces of grains for
-/// which it holds twice.
+/// Brings contacts of the copies with from <= x < to for whose ends `wanted` holds, and contacts with surfaces of
+/// grains for which it holds twice.
 void MovingPatch::bring_contacts(double from, double to, Exchange& change,
                                  const std::function<bool(double first, double second)>& wanted) const {
   const auto between = [&](double x) { return x >= from && x < to; };

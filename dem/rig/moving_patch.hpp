@@ -132,20 +132,20 @@ class MovingPatch {
 };
 
 template <class Notes>
-void parts(Notes& notes, TileGrain& g) {
+void archive(Notes& notes, TileGrain& g) {
   notes(g.position, g.radius, g.mass, g.material);
 }
 template <class Notes>
-void parts(Notes& notes, TileContact& c) {
+void archive(Notes& notes, TileContact& c) {
   notes(c.first, c.second, c.image, c.memory);
 }
 template <class Notes>
-void parts(Notes& notes, TileOnSurface& c) {
+void archive(Notes& notes, TileOnSurface& c) {
   notes(c.grain, c.body, c.surface, c.normal, c.memory);
 }
 
 template <class Notes>
-void parts(Notes& notes, Tile& t) {
+void archive(Notes& notes, Tile& t) {
   notes(t.length, t.grains, t.contacts, t.on_surfaces);
 }
 

@@ -42,7 +42,7 @@ class FlowMeter {
 };
 
 template <class Notes>
-void parts(Notes& notes, FlowMeter& meter) {
+void archive(Notes& notes, FlowMeter& meter) {
   meter.state(notes);
 }
 

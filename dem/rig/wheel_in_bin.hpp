@@ -29,20 +29,20 @@ namespace soilbin::dem {
 inline constexpr double wheel_gap = 1e-4;
 
 template <class Notes>
-void parts(Notes& notes, SurfaceHeight& s) {
+void archive(Notes& notes, SurfaceHeight& s) {
   notes(s.over.x_lower, s.over.x_upper, s.over.y_lower, s.over.y_upper, s.nx, s.ny, s.height);
 }
 template <class Notes>
-void parts(Notes& notes, TreadForces& t) {
+void archive(Notes& notes, TreadForces& t) {
   notes(t.sectors, t.thrust, t.resistance, t.side);
 }
 template <class Notes>
-void parts(Notes& notes, EnergyLosses& l) {
+void archive(Notes& notes, EnergyLosses& l) {
   auto& [damping, shear_damping, sliding, into_slide, into_roll, adhesion, added] = l;
   notes(damping, shear_damping, sliding, into_slide, into_roll, adhesion, added);
 }
 template <class Notes>
-void parts(Notes& notes, WheelSample& s) {
+void archive(Notes& notes, WheelSample& s) {
   auto& [time, travel, force, moment, sinkage, speed, heave, rotation, into_soil, tread, ledger] = s;
   notes(time, travel, force, moment, sinkage, speed, heave, rotation, into_soil, tread, ledger);
 }
@@ -58,7 +58,7 @@ struct SampleUnderWay {
 };
 
 template <class Notes>
-void parts(Notes& notes, SampleUnderWay& s) {
+void archive(Notes& notes, SampleUnderWay& s) {
   notes(s.sum, s.steps, s.taken, s.begun, s.travel, s.work);
 }
 

@@ -23,7 +23,7 @@ constexpr const char* answer_mark = "soilbin-wheel-answer/1 ";
 }  // namespace
 
 template <class Notes>
-void parts(Notes& notes, OperatingCondition& at) {
+void archive(Notes& notes, OperatingCondition& at) {
   auto& [load, slip, speed, longitudinal_incline, transverse_incline, yaw, pass, slip_by, force_frame, moisture,
          position, run, inflation_pressure, rut_load, rut_slip] = at;  // grains meet a rigid tire
   notes(load, slip, speed, longitudinal_incline, transverse_incline, yaw, pass, slip_by, force_frame, moisture,
@@ -31,7 +31,7 @@ void parts(Notes& notes, OperatingCondition& at) {
 }
 
 template <class Notes>
-void parts(Notes& notes, Rig& rig) {
+void archive(Notes& notes, Rig& rig) {
   auto& [mass, tilting, lowering, resting, starting, behind, ahead, travel, patch, until_error, sampling, sectors,
          inertia, meshing, young, poisson, dt, skin, deepest_overlap, sleep_speed, sleep_time, ledger, steady_drift,
          drive_torque, onlooker] = rig;  // the onlooker stays with the command; LAMMPS has no moving patch
@@ -41,7 +41,7 @@ void parts(Notes& notes, Rig& rig) {
 }
 
 template <class Notes>
-void parts(Notes& notes, WheelJob& job) {
+void archive(Notes& notes, WheelJob& job) {
   BedRecipe& bed = job.bed.recipe;
   notes(bed.soil.radius_min, bed.soil.radius_max, bed.size.length, bed.size.width, bed.size.depth, bed.gravity);
   notes(bed.rest.kinetic, bed.rest.unbalanced, bed.rest.every, bed.rest.at_most);
@@ -55,19 +55,19 @@ void parts(Notes& notes, WheelJob& job) {
 }
 
 template <class Notes>
-void parts(Notes& notes, SoilFlow& flow) {
+void archive(Notes& notes, SoilFlow& flow) {
   auto& [cell, nx, nz, x, z, vx, vz, solid] = flow;
   notes(cell, nx, nz, x, z, vx, vz, solid);
 }
 
 template <class Notes>
-void parts(Notes& notes, Rut& rut) {
+void archive(Notes& notes, Rut& rut) {
   auto& [from, to, axle, y, across, x, along, volume, heaped, dug] = rut;
   notes(from, to, axle, y, across, x, along, volume, heaped, dug);
 }
 
 template <class Notes>
-void parts(Notes& notes, WheelRun& run) {
+void archive(Notes& notes, WheelRun& run) {
   notes(run.samples, run.surface, run.bed.void_ratio, run.bed.bulk, run.bed.coordination, run.rut, run.flow,
         run.earlier);
 }

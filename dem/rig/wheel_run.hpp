@@ -58,7 +58,7 @@ struct Rig {
   /// Only the soil from `behind` to `ahead` of the axle is simulated, and goes along with it (moving_patch.hpp); the
   /// bed is periodic.
   bool patch = false;
-  /// Of a patch without `travel`: the wheel goes on until the run is steady and the standard error of its mean pull is
+  /// On a patch without `travel` the wheel goes on until the run is steady and the standard error of its mean pull is
   /// this share of the load; longest_way_on_patch at most.
   double until_error = 0.01;
   double sampling = 0.01;  ///< a sample's time [s]; forces are means over all its steps
@@ -104,7 +104,7 @@ struct WheelSample {
   EnergyLosses ledger;   ///< at its end, since the bed was poured; filled with Rig::ledger
 };
 
-/// Of a run on a moving patch.
+/// What a moving patch held and did in a run.
 struct PatchReport {
   double grains = 0;        ///< in it at once; 0: the bed stood still
   double disturbed = 0;     ///< how far the soil at the front had moved when it was let go, largest mean of a slab [m]

@@ -25,7 +25,7 @@ VerificationSetup sphere_on(const Material& sphere, const Material& wall, double
 const Material m1{"M1", 2500, 1e9, 0.2}, steel{"steel", 7200, 210e9, 0.2};
 
 void impact_on_steel(std::vector<VerificationRow>& rows, const StartEngine& start) {
-  // It touches after 20 steps to the last bit, so rounding decides whether step 20 counts: 3e-6 in the speed.
+  // The sphere touches after 20 steps to the last bit, so rounding decides whether step 20 counts: 3e-6 in the speed.
   auto setup = sphere_on(m1, steel, 0.00101, -1);
   auto engine = start(setup);
   engine->step(121);

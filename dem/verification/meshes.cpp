@@ -245,7 +245,7 @@ void drum(Rows& rows) {
   laws.rolling = RollingLaw::directional;
   Simulation simulation = start(body, laws, 0.8, mu_r);
   const double slope = std::atan(mu_r);
-  // It swings about its place like a pendulum, undamped: begin there, and take the mean of whole swings.
+  // A grain swings about its place like a pendulum, undamped: begin there, and take the mean of whole swings.
   const Vec3 down{-std::sin(slope), 0, -std::cos(slope)};
   simulation.add_grain((radius - grain_radius) * down + Vec3{0, 0.004, 0}, grain_radius, 0, {},
                        {0, body.spin.y * radius / grain_radius, 0});

@@ -20,7 +20,7 @@ struct NamedNote {
 };
 
 template <class Notes>
-void parts(Notes& notes, NamedNote& note) {
+void archive(Notes& notes, NamedNote& note) {
   notes(note.name, note.text);
 }
 

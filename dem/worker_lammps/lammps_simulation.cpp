@@ -17,30 +17,30 @@
 namespace soilbin::dem {
 
 template <class Notes>
-void parts(Notes& notes, Rotation& q) {
+void archive(Notes& notes, Rotation& q) {
   notes(q.w, q.x, q.y, q.z);
 }
 
 /// All but its name and surfaces, which come from elsewhere, and a servo, which no wheel has.
 template <class Notes>
-void parts(Notes& notes, Body& body) {
+void archive(Notes& notes, Body& body) {
   notes(body.mass, body.inertia, body.free_translation, body.turning, body.axis, body.weighs, body.applied_force,
         body.applied_torque, body.position, body.rotation, body.velocity, body.spin, body.force, body.torque, body.work,
         body.driven_work, body.travel);
 }
 
 template <class Notes>
-void parts(Notes& notes, Triple<double>& t) {
+void archive(Notes& notes, Triple<double>& t) {
   notes(t.x, t.y, t.z);
 }
 
 template <class Notes>
-void parts(Notes& notes, Region& region) {
+void archive(Notes& notes, Region& region) {
   notes(region.lower, region.upper);
 }
 
 template <class Notes>
-void parts(Notes& notes, LammpsTravelling& t) {
+void archive(Notes& notes, LammpsTravelling& t) {
   SurfaceContact& c = t.contact;
   notes(t.id, c.who.body, c.who.surface, c.triangle, c.normal, c.memory.slide, c.memory.roll);
 }

@@ -115,14 +115,8 @@ void bind_answer(py::module_& module) {
       .def_property_readonly("presumes", &presumes,
                              "of each effect of the model, by id: what it takes for values that the campaign's wheel "
                              "does not declare (lugs, inflation pressure); an empty list where it presumes nothing")
-      .def_property_readonly(
-          "sentences",
-          [](const LoopAnswer& a) {
-            std::vector<std::string> all = {compare::verdict_sentence(a)};
-            for (const std::string& sentence : compare::explanation(a)) all.push_back(sentence);
-            return all;
-          },
-          "the verdict and what stands behind it, in plain words")
+      .def_property_readonly("sentences", &compare::in_sentences,
+                             "the verdict and what stands behind it, in plain words")
       .def(
           "json", [](const LoopAnswer& a) { return compare::json_text(compare::to_json(a)); }, "soilbin-loop/1")
       .def(

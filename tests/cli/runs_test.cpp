@@ -80,7 +80,22 @@ TEST(RunsCommand, AnswersInJson) {
   ASSERT_EQ(document.at("runs").size(), 2U);
   EXPECT_EQ(document.at("runs")[1].at("lines"), (std::vector<int>{22, 41}));
   EXPECT_EQ(document.at("runs")[1].at("drawbar_pull").at("value"), 10.5);
+  EXPECT_EQ(document.at("parted"), "Runs were separated by the changes of 'run'.");
   EXPECT_THAT(soilbin("runs '" + (scratch / "no.csv").string() + "'"), Refuses(HasSubstr("no.csv: no such file")));
+}
+
+TEST(RunsCommand, SaysWhatItFoundOnAPageAndInMarkdownToo) {
+  const Scratch scratch;
+  std::string csv = "t,load_N,slip,drawbar_pull_N\n";
+  for (int i = 0; i < 40; ++i) csv += fmt::format("{},80,{},{}\n", i, i < 20 ? 0.1 : 0.2, 10 + i % 2);
+  const std::string page = (scratch / "page.html").string(), folder = (scratch / "md").string();
+  const Outcome made = soilbin("runs '" + scratch.write("log.csv", csv).string() + "' --report '" + page +
+                               "' --markdown '" + folder + "'");
+  ASSERT_EQ(made.status, 0) << made.err;
+  for (const std::string& told : {made.out, text_of(page), text_of(folder + "/report.md")})
+    EXPECT_THAT(told, AllOf(HasSubstr("and by breaks of the clock"), HasSubstr("2 runs form 1 unbroken period of time"),
+                            HasSubstr("MSER-5")));
+  EXPECT_THAT(text_of(folder + "/runs.csv"), StartsWith("run,setpoint,load_N,slip,drawbar_pull_N"));
 }
 
 TEST(DecimalCommaFlag, WritesWhatTheCommandsReadBack) {

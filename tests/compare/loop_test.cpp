@@ -340,7 +340,7 @@ TEST(Loop, IsNotMovedByOneOutlier) {
   EXPECT_FALSE(kept.with_outliers);
   ASSERT_TRUE(answer.with_outliers);
   EXPECT_EQ(answer.with_outliers->verdict, kept.verdict());
-  const std::vector<std::string> said = explanation(answer);
+  const std::vector<std::string> said = in_sentences(answer);
   EXPECT_TRUE(std::any_of(said.begin(), said.end(), [](const std::string& sentence) {
     return sentence.find("With it kept the verdict") != std::string::npos;
   }));
@@ -430,7 +430,7 @@ TEST(SlowLoop, TellsWhatAnEffectPresumesOfTheWheel) {
   }
   const std::string words = "lug thrust assumes lug height = 12.5 mm (5 % of the radius)";
   const auto tells = [&](const std::string& text) { return text.find(words) != std::string::npos; };
-  const std::vector<std::string> said = explanation(answer);
+  const std::vector<std::string> said = in_sentences(answer);
   EXPECT_TRUE(std::any_of(said.begin(), said.end(), tells));
   EXPECT_TRUE(tells(resolved_model(campaign, answer).description));
   const std::string page = page_of(report_on(campaign, answer, {}),

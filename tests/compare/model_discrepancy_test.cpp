@@ -107,8 +107,8 @@ double share_in_details(const LoopAnswer& answer, const std::set<std::string>& i
 }
 
 std::string all_words(const LoopAnswer& answer) {
-  std::string words = verdict_sentence(answer) + "\n";
-  for (const std::string& sentence : explanation(answer)) words += sentence + "\n";
+  std::string words;
+  for (const std::string& sentence : in_sentences(answer)) words += sentence + "\n";
   return words;
 }
 
@@ -175,7 +175,7 @@ TEST(SlowModelDiscrepancy, ShowsTheEffectBesideAnOddSoil) {
   const auto json = to_json(answer);
   EXPECT_EQ(json.at("beside_inadequacy").at("effects"), nlohmann::ordered_json({"multipass"}));
   EXPECT_EQ(json.at("beside_inadequacy").at("decides"), true);
-  const std::vector<std::string> words = explanation(answer);
+  const std::vector<std::string> words = in_sentences(answer);
   EXPECT_EQ(std::count_if(words.begin(), words.end(),
                           [](const std::string& sentence) {
                             return sentence.starts_with("Second analysis, with the base model taken as exact");

@@ -65,6 +65,7 @@ Tire any_tire() {
   if (*rc::gen::arbitrary<bool>()) tire.lugs.count = *rc::gen::inRange(1, 100);
   if (*rc::gen::arbitrary<bool>()) tire.inflation_pressure = *between(0, 1e6);
   if (*rc::gen::arbitrary<bool>()) tire.carcass_pressure = any_estimate(0, 1e5);
+  if (*rc::gen::arbitrary<bool>()) tire.construction = *rc::gen::element(Construction::bias_ply, Construction::radial);
   if (*rc::gen::arbitrary<bool>()) tire.sources["lugs.height"] = "a" + *text();
   return tire;
 }
@@ -148,6 +149,7 @@ TEST(CaseWriter, ReadingWhatWasWrittenGivesTheSameBits) {
     RC_ASSERT(again.name == c.name);
     RC_ASSERT(again.description == c.description);
     RC_ASSERT(again.scenario.tire.radius == c.scenario.tire.radius);
+    RC_ASSERT(again.scenario.tire.construction == c.scenario.tire.construction);
     RC_ASSERT(again.scenario.tire.sources == c.scenario.tire.sources);
     RC_ASSERT(again.scenario.soil.semi_empirical->k_phi.value == c.scenario.soil.semi_empirical->k_phi.value);
     RC_ASSERT(again.scenario.soil.semi_empirical->friction_angle.std_error ==
@@ -178,6 +180,19 @@ TEST(CaseWriter, TiresAndSoilsAlone) {
     soil.granular = any_granular();
     RC_ASSERT(write_soil(parse_soil(make_source_text(write_soil(soil), "s.yaml"))) == write_soil(soil));
   }));
+}
+
+TEST(CaseWriter, AConstructionThatNobodyToldIsNotWritten) {
+  const auto read = [](const std::string& more) {
+    return parse_tire(
+        make_source_text("format: soilbin-tire/1\nname: t\nradius: 0.5 m\nwidth: 0.2 m\n" + more, "t.yaml"));
+  };
+  EXPECT_EQ(read("construction: radial\n").construction, Construction::radial);
+  for (const char* more : {"", "construction: unknown\n"}) {
+    EXPECT_EQ(read(more).construction, std::nullopt);
+    EXPECT_EQ(write_tire(read(more)).find("construction"), std::string::npos);
+  }
+  EXPECT_THROW(read("construction: woven\n"), InputError);
 }
 
 // Whatever is written is read: a number that no file may hold (a fit that went wrong) is refused where it is written.
