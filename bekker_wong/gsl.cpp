@@ -118,6 +118,12 @@ double bracketed_root(FunctionRef f, double lower, double upper, double rel_tol,
   throw std::domain_error(what + ": no convergence in 200 iterations");
 }
 
+double bracketed_root(FunctionRef f, const Sample& end, const Sample& other, double rel_tol, double f_tol,
+                      const std::string& what) {
+  const auto known = [&](double x) { return x == end.x ? end.f : x == other.x ? other.f : f(x); };
+  return bracketed_root(known, std::min(end.x, other.x), std::max(end.x, other.x), rel_tol, f_tol, what);
+}
+
 Sample bracketed_maximum(FunctionRef f, const MaximumBracket& within, double x_tol, double enough,
                          const std::string& what) {
   const auto& [before, highest, after] = within;
@@ -206,10 +212,16 @@ SystemRoot system_root(const Equations& equations, std::vector<double> start, do
   if (residual_of(f) <= tol) return {std::move(start), residual_of(f)};
   struct Called {
     const Equations& equations;
+    const std::vector<double>*at_start, *start;
     std::exception_ptr thrown{};
-  } called{equations};
+  } called{equations, &f, &start};
   gsl_multiroot_function function{[](const gsl_vector* x, void* o, gsl_vector* into) -> int {
                                     Called& call = *static_cast<Called*>(o);
+                                    if (const auto* known = std::exchange(call.at_start, nullptr);
+                                        known && std::equal(call.start->begin(), call.start->end(), x->data)) {
+                                      std::ranges::copy(*known, into->data);
+                                      return GSL_SUCCESS;
+                                    }
                                     try {
                                       call.equations({x->data, x->size}, {into->data, into->size});
                                       return GSL_SUCCESS;

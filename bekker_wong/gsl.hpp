@@ -28,15 +28,18 @@ struct LegendreRule {
 };
 LegendreRule legendre_rule(int n);
 
-/// Root of a continuous f bracketed by f(lower) <= 0 <= f(upper) or the reverse, by Brent's method
-/// (gsl_root_fsolver_brent): done where |f| <= f_tol or the bracket is narrower than rel_tol of the root. Throws
-/// std::domain_error with `what` where the bracket holds no change of sign or f is not finite.
-double bracketed_root(FunctionRef f, double lower, double upper, double rel_tol, double f_tol, const std::string& what);
-
 /// A point of a curve.
 struct Sample {
   double x = 0.0, f = 0.0;
 };
+
+/// Root of a continuous f bracketed by f(lower) <= 0 <= f(upper) or the reverse, by Brent's method
+/// (gsl_root_fsolver_brent): done where |f| <= f_tol or the bracket is narrower than rel_tol of the root. Throws
+/// std::domain_error with `what` where the bracket holds no change of sign or f is not finite.
+double bracketed_root(FunctionRef f, double lower, double upper, double rel_tol, double f_tol, const std::string& what);
+/// Where f is known at both ends, in either order: it is not asked there again.
+double bracketed_root(FunctionRef f, const Sample& end, const Sample& other, double rel_tol, double f_tol,
+                      const std::string& what);
 
 /// Three points of a curve from left to right, between which its highest one lies where `top` is higher than the
 /// others.

@@ -13,6 +13,7 @@
 #include "compare/telling/reports.hpp"
 #include "compare/vehicle/vehicle_answers.hpp"
 #include "compare/vehicle/vehicle_doubts.hpp"
+#include "scenario/csv.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -21,7 +22,7 @@ struct VehicleOptions {
   explicit VehicleOptions(CLI::App& app) : asked(app) {}
 
   VehicleQuestion asked;
-  std::string map;
+  std::string map, measured;
   unsigned samples = 50;
   bool drive = false, turn = false;
   std::string radius, steer;
@@ -49,12 +50,24 @@ int turn_steadily(const VehicleOptions& options, const compare::VehicleCase& que
       .status(done);
 }
 
+int beside_measured(const VehicleOptions& options, const compare::VehicleCase& question,
+                    const std::vector<compare::VehicleWheel>& wheels, const Model& model, compare::Doubts notes,
+                    const Session& session) {
+  const compare::MeasuredVehicle measured =
+      compare::read_measured_vehicle(read_source_text(options.measured, largest_csv));
+  options.asked.refuse_what_is_measured(measured);
+  const compare::MeasuredAnswers answers = compare::beside_measured(question, wheels, model, measured);
+  return publish(compare::report_on(answers), options.outputs, doubts_about(answers, std::move(notes)), session)
+      .status(done);
+}
+
 int vehicle(const VehicleOptions& options, const Session& session) {
   const compare::VehicleCase question = options.asked.ask(session.place);
   std::vector<compare::VehicleWheel> wheels = wheels_of(question);
   compare::Doubts notes = declare_tires(wheels, options.asked.left_out());
   const bekker_wong::BekkerWong model({.errors = false, .patch = false});
   if (options.drive) return drive_in_time(options, question, wheels, model, std::move(notes), session);
+  if (!options.measured.empty()) return beside_measured(options, question, wheels, model, std::move(notes), session);
   if (options.turn) return turn_steadily(options, question, wheels, model, std::move(notes), session);
   compare::VehicleAnswers answers = compare::answers_of(question, wheels, model);
   if (!options.map.empty())
@@ -75,9 +88,14 @@ void add_vehicle(CLI::App& app, Session& session) {
   CLI::Option* map = add_file(*command, "--map", options->map, "FILE.csv",
                               "the chance to go over slope and heading, by the soil's standard deviations");
   add_value(*command, "--samples", options->samples, "WHOLE", "soils that the map draws (50)")->needs(map);
+  CLI::Option* measured =
+      add_value(*command, "--measured", options->measured, "FILE.csv",
+                "the model beside slopes or pulls that were measured of the whole vehicle at a slip")
+          ->excludes(map);
   CLI::Option* turn =
       command->add_flag("--turn", options->turn, "the tightest steady turn on level ground, and what ends it")
-          ->excludes(map);
+          ->excludes(map)
+          ->excludes(measured);
   CLI::Option* radius =
       add_value(*command, "--radius", options->radius, "m", "of the turn that is asked, to the left positive")
           ->needs(turn);
@@ -89,19 +107,22 @@ void add_vehicle(CLI::App& app, Session& session) {
       ->add_flag("--drive", options->drive,
                  "in time, from rest: as the file's section 'drive' says, else for 30 s at the condition's speed")
       ->excludes(map)
+      ->excludes(measured)
       ->excludes(turn);
   options->outputs.add_to(*command, {.json = "soilbin-vehicle-answer/1, in a turn soilbin-vehicle-turn/1, in time "
-                                             "soilbin-vehicle-drive/1; in SI",
-                                     .plot = "draw pull and sinkages against slip, turns against their radius, or the "
-                                             "drive against time",
-                                     .csv = "save pull and wheels against slip, the wheels in the turn, or every "
-                                            "sample of the drive"});
+                                             "soilbin-vehicle-drive/1, beside measurements "
+                                             "soilbin-vehicle-measured/1; in SI",
+                                     .plot = "draw pull and sinkages against slip, turns against their radius, the "
+                                             "drive against time, or the measured points and the model",
+                                     .csv = "save pull and wheels against slip, the wheels in the turn, every sample "
+                                            "of the drive, or the measured points and the model"});
   command->footer(
       "Exit status 1 where the vehicle does not travel in the condition that is asked, in time where it does not stand "
       "at its start.\n"
       "Examples: soilbin vehicle truck --slope 5deg --pull 2kN\n"
       "          soilbin vehicle tractor --driven rear --mass 7t --friction-angle 28+-2deg\n"
       "          soilbin vehicle truck --turn --radius 12m\n"
+      "          soilbin vehicle mine.yaml --measured climbs.csv --plot climbs.svg\n"
       "          soilbin vehicle rover --drive --slope 10deg --report climb.html");
   command->callback([=, &session] { session.action = [=, &session] { return vehicle(*options, session); }; });
 }

@@ -63,6 +63,13 @@ void VehicleQuestion::refuse_what_its_drive_says(const compare::VehicleDrive& dr
     throw InputError("--speed has no effect: the file's drive has a controller of its own");
 }
 
+void VehicleQuestion::refuse_what_is_measured(const compare::MeasuredVehicle& measured) const {
+  const bool pulls = measured.channel != compare::VehicleChannel::slope;
+  if (condition_.given("slope") && measured.tells_slopes)
+    throw InputError("--slope has no effect: the measured file has the slopes");
+  if (condition_.given("pull") && pulls) throw InputError("--pull has no effect: the measured file has the pulls");
+}
+
 compare::VehicleCase VehicleQuestion::ask(const Workplace& place) const {
   compare::VehicleCase vehicle = compare::find_vehicle_case(name_, place.library, place.effects);
   condition_.apply(vehicle.condition);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/question.hpp"
-#include "compare/vehicle/vehicle.hpp"
+#include "compare/vehicle/vehicle_measured.hpp"
 
 namespace soilbin::cli {
 
@@ -31,6 +31,8 @@ class VehicleQuestion {
 
   /// Throws InputError for a flag of the condition that a drive would leave unread, because its file says it.
   void refuse_what_its_drive_says(const compare::VehicleDrive& drive) const;
+  /// Throws InputError for a flag of the condition whose number is measured, or stands beside what is.
+  void refuse_what_is_measured(const compare::MeasuredVehicle& measured) const;
 
  private:
   void change(compare::VehicleCase& vehicle) const;

@@ -25,81 +25,17 @@ double read_deviation(const YamlNode& node, const Measure& measure, const Readin
   return read_scalar(node, Measure{measure.unit, zero_or_more}, reading).value;
 }
 
-/// The unit behind a column's key: of "load_kN", "load [kN]" and "load (kN)" kN; nothing where the header is another
-/// quantity.
-std::optional<std::string> unit_behind(const std::string& header, const std::string& key) {
-  if (!header.starts_with(key)) return std::nullopt;
-  std::string unit = header.substr(key.size());
-  if (unit.empty()) return "";
-  if (std::string_view("_ [(").find(unit.front()) == std::string_view::npos) return std::nullopt;
-  std::erase_if(unit, [](char c) { return std::string_view("_ []()").find(c) != std::string_view::npos; });
-  return unit;
-}
-
-/// The place of a column among the header's cells, and its unit.
-struct PlacedColumn {
-  std::size_t place = 0;
-  std::string unit;
-};
-
-PlacedColumn place_of(const CsvColumn& column, const CsvTable& table, const SourceText& source) {
-  const std::string usual = column.key + "_" + column.measure.unit;
-  for (std::size_t i = 0; i < table.header.cells.size(); ++i) {
-    const CsvCell& cell = table.header.cells[i];
-    const std::optional<std::string> unit = unit_behind(cell.text, column.key);
-    if (!unit) continue;
-    try {
-      if (!unit->empty() && same_dimension(parse_unit(*unit).dimension, parse_unit(column.measure.unit).dimension))
-        return {i, *unit};
-    } catch (const InputError&) {  // no unit at all
-    }
-    source.refuse(cell.offset,
-                  fmt::format("column '{}': expected {} behind the name", clipped(cell.text),
-                              dimension_name(parse_unit(column.measure.unit))),
-                  fmt::format("such as '{}'", usual));
-  }
-  source.refuse(table.header.cells.front().offset, fmt::format("no column '{}'", column.key),
-                fmt::format("such as '{}'", usual));
-}
-
-double number_of(const CsvCell& cell, const CsvColumn& column, const std::string& unit, const SourceText& source) {
-  number_in(cell, column.key, unit, source);
-  try {
-    return read_quantity(cell.text + " " + unit, column.measure);
-  } catch (const InputError& error) {
-    source.refuse(cell.offset, fmt::format("column '{}': {}", column.key, error.what()));
-  }
-}
-
 }  // namespace
 
-std::vector<std::vector<double>> read_csv_columns(const YamlNode& path, const std::vector<CsvColumn>& columns,
-                                                  const Reading& reading) {
+std::vector<std::vector<double>> read_named_csv(const YamlNode& path, const std::vector<CsvColumn>& columns,
+                                                const Reading& reading) {
   const std::string name = read_name(path, reading);
   if (name.find('\0') != std::string::npos) reading.refuse(path, "a path can't hold a zero byte");
   const std::filesystem::path file = std::filesystem::path(reading.source->file).parent_path() / name;
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
     reading.refuse(path, fmt::format("no such file: '{}'", clipped(name)), "a path relative to this file, of a CSV");
-  const SourceText source = read_source_text(file, largest_csv);
-  const CsvTable table = parse_csv(source);
-  std::vector<PlacedColumn> placed;
-  for (const CsvColumn& column : columns) placed.push_back(place_of(column, table, source));
-  for (std::size_t i = 0; i < table.header.cells.size(); ++i)
-    if (std::ranges::find(placed, i, &PlacedColumn::place) == placed.end()) {
-      std::vector<std::string> keys;
-      for (const CsvColumn& column : columns) keys.push_back(column.key);
-      const CsvCell& cell = table.header.cells[i];
-      source.refuse(cell.offset, fmt::format("column '{}' is not read here", clipped(cell.text)),
-                    "columns here: " + listed(keys));
-    }
-  std::vector<std::vector<double>> rows;
-  for (const CsvRow& row : table.rows) {
-    std::vector<double>& numbers = rows.emplace_back();
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      numbers.push_back(number_of(row.cells[placed[c].place], columns[c], placed[c].unit, source));
-  }
-  return rows;
+  return read_csv_columns(read_source_text(file, largest_csv), columns);
 }
 
 void expect_keys(const YamlNode& mapping, const std::vector<std::string>& keys, const Reading& reading) {

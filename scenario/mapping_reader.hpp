@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "scenario/csv_columns.hpp"
 #include "scenario/description.hpp"
 #include "scenario/yaml_node.hpp"
 
@@ -55,17 +56,9 @@ int read_integer(const YamlNode& node, int lowest, const Reading& reading);
 /// The place of a word among the right ones.
 std::size_t read_word(const YamlNode& node, const std::vector<std::string>& right, const Reading& reading);
 
-/// A column of numbers that a CSV must have.
-struct CsvColumn {
-  std::string key;  ///< "load"; the header is the key with its unit: load_kN, load [kN]
-  Measure measure;
-};
-
-/// The rows of a CSV that a file names by a path relative to itself, the columns' numbers [SI] in their order. Throws
-/// InputError with the place in the CSV for a column that is missing, unknown or has no unit, and for a number out of
-/// its range.
-std::vector<std::vector<double>> read_csv_columns(const YamlNode& path, const std::vector<CsvColumn>& columns,
-                                                  const Reading& reading);
+/// The rows of a CSV that a file names by a path relative to itself, as read_csv_columns reads them.
+std::vector<std::vector<double>> read_named_csv(const YamlNode& path, const std::vector<CsvColumn>& columns,
+                                                const Reading& reading);
 
 /// Reads one word of an enum.
 template <class E>
@@ -179,7 +172,7 @@ class ReadInto {
       columns.push_back({key, measure});
       members.push_back(member);
     });
-    for (const std::vector<double>& numbers : read_csv_columns(path, columns, reading_)) {
+    for (const std::vector<double>& numbers : read_named_csv(path, columns, reading_)) {
       Row& row = rows.emplace_back();
       for (std::size_t i = 0; i < members.size(); ++i) row.*members[i] = numbers[i];
     }

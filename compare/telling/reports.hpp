@@ -50,6 +50,7 @@ struct ForceTable;
 struct Finding;
 struct GoMap;
 struct LogRuns;
+struct MeasuredAnswers;
 template <class Test>
 struct MeasuredBeside;
 struct MeasuredPlate;
@@ -107,6 +108,8 @@ Report report_on(const cone_index::Mobility& mobility, const std::string& soil);
 /// A vehicle on a soil: whether it travels, how steep, each wheel, power, pull against slip; soilbin-vehicle-answer/1.
 Report report_on(const VehicleAnswers& answers);
 Report report_on(const TurnAnswers& answers);
+/// A vehicle beside what was measured of it at slips of its drive line; soilbin-vehicle-measured/1.
+Report report_on(const MeasuredAnswers& answers);
 /// A vehicle driven in time: how it ended and which axle gave out; soilbin-vehicle-drive/1.
 Report report_on(const DrivenAnswers& answers);
 /// A row for each slope and heading.

@@ -146,26 +146,43 @@ SteadyWheel SteadyVehicles::rolled(std::size_t wheel, const OperatingCondition& 
   return steady;
 }
 
-/// Looks up where its torque is less there, else down.
 SteadyWheel SteadyVehicles::free(std::size_t wheel, OperatingCondition at, const std::function<double(double)>& torque,
-                                 double from) const {
+                                 double from, FoundSlip& found) const {
   SteadyWheel steady;
   const auto missing = [&](double slip) {
     at.slip = slip;
     steady = rolled(wheel, at);
     return steady.result.torque.value - torque(slip);
   };
-  double here = from, f = missing(here);
-  if (steady.lifted || f == 0.0) return steady;
+  const double whole = at.load * wheels_[wheel].scenario.tire.radius;
+  constexpr double small = 1e-14, rounding = 1e-12;  // shares of it: aimed at; what the wheel's own balance leaves
+  const bool known = found.rise > 0.0;
+  double here = known ? found.slip : from, f = missing(here);
+  if (steady.lifted) return steady;
+  const auto between = [&](const gsl::Sample& a, const gsl::Sample& b) {
+    found.rise = (b.f - a.f) / (b.x - a.x);
+    found.slip = gsl::bracketed_root(missing, a, b, 1e-15, 0.1 * small * whole, "the slip at a torque");
+    return steady;
+  };
+  // By secants from where the last search ended, as long as they come closer.
+  for (bool closer = known; closer && std::abs(f) > small * whole;) {
+    const gsl::Sample before{here, f};
+    here = std::clamp(here - f / found.rise, most_braked, 1.0);
+    if (here == before.x) break;
+    f = missing(here);
+    closer = std::abs(f) < 0.5 * std::abs(before.f);
+    if (closer) found.rise = (f - before.f) / (here - before.x);
+    if (!closer && std::abs(f) > rounding * whole && (f < 0.0) != (before.f < 0.0)) return between(before, {here, f});
+  }
+  if (std::abs(f) <= (known ? rounding * whole : 0.0)) {
+    found.slip = here;
+    return steady;
+  }
   const double direction = f < 0.0 ? 1.0 : -1.0, end = f < 0.0 ? 1.0 : most_braked;
   for (double step = 0.01; here != end; step *= 1.5) {
     const double next = direction > 0 ? std::min(here + step, end) : std::max(here - step, end);
     const double g = missing(next);
-    if ((g < 0.0) != (f < 0.0) || g == 0.0) {
-      gsl::bracketed_root(missing, std::min(here, next), std::max(here, next), 1e-15,
-                          1e-15 * at.load * wheels_[wheel].scenario.tire.radius, "the slip at a torque");
-      return steady;
-    }
+    if ((g < 0.0) != (f < 0.0) || g == 0.0) return between({here, f}, {next, g});
     here = next, f = g;
   }
   throw VehicleGaveOut(GaveOut::wheel, wheel,
@@ -173,7 +190,7 @@ SteadyWheel SteadyVehicles::free(std::size_t wheel, OperatingCondition at, const
 }
 
 void SteadyVehicles::roll_axle(std::size_t axle, double slip, const Rims& rims, std::vector<OperatingCondition>& at,
-                               std::vector<SteadyWheel>& wheels) const {
+                               std::vector<SteadyWheel>& wheels, std::vector<FoundSlip>& found) const {
   const VehicleAxle& about = vehicle_.axles[axle];
   std::vector<std::size_t> mine;
   for (std::size_t i = 0; i < wheels_.size(); ++i)
@@ -209,11 +226,11 @@ void SteadyVehicles::roll_axle(std::size_t axle, double slip, const Rims& rims, 
     }
   };
   if (about.driven == YesNo::no) {
-    each([&](std::size_t i) { wheels[i] = free(i, at[i], no_torque, 0.0); });
+    each([&](std::size_t i) { wheels[i] = free(i, at[i], no_torque, 0.0, found[i]); });
   } else if (vehicle_.drive_line == DriveLine::open_axles && mine.size() == 2) {
     const std::size_t left = mine[0], right = mine[1];
     if (at[left].load <= 0.0 || at[right].load <= 0.0) {  // a wheel in the air takes no torque, nor does the other
-      for (const std::size_t i : mine) wheels[i] = free(i, at[i], no_torque, 0.0);
+      for (const std::size_t i : mine) wheels[i] = free(i, at[i], no_torque, 0.0, found[i]);
       return;
     }
     const auto unlike = [&](double d) { return roll(left, 1.0 + d) - roll(right, 1.0 - d); };
@@ -224,8 +241,8 @@ void SteadyVehicles::roll_axle(std::size_t axle, double slip, const Rims& rims, 
     for (double step = 0.01; std::abs(here) < end; step *= 1.5) {
       const double next = std::clamp(here + direction * step, -end, end), g = unlike(next);
       if ((g < 0.0) != (f < 0.0) || g == 0.0) {
-        const double d = gsl::bracketed_root(unlike, std::min(here, next), std::max(here, next), 1e-15,
-                                             1e-15 * weight() * about.tire.radius, "the speeds at equal torque");
+        const double d = gsl::bracketed_root(unlike, {here, f}, {next, g}, 1e-15, 1e-15 * weight() * about.tire.radius,
+                                             "the speeds at equal torque");
         unlike(d);
         return;
       }
@@ -241,7 +258,7 @@ void SteadyVehicles::roll_axle(std::size_t axle, double slip, const Rims& rims, 
         return spin > top_spin(*about.motor) ? 0.0 : torque_at_wheels(*about.motor, spin);
       };
       if (roll(i, 1.0) > largest(at[i].slip)) {
-        wheels[i] = free(i, at[i], largest, at[i].slip);
+        wheels[i] = free(i, at[i], largest, at[i].slip, found[i]);
         wheels[i].at_largest_torque = true;
       }
     });
@@ -249,7 +266,7 @@ void SteadyVehicles::roll_axle(std::size_t axle, double slip, const Rims& rims, 
 }
 
 SteadyVehicles::Trial SteadyVehicles::trial(const VehicleCondition& at, double slip, const Modes& m,
-                                            std::span<const double> x) const {
+                                            std::span<const double> x, std::vector<FoundSlip>& found) const {
   Trial trial;
   SteadyVehicle& v = trial.vehicle;
   v.at = at, v.slip = slip;
@@ -276,7 +293,8 @@ SteadyVehicles::Trial SteadyVehicles::trial(const VehicleCondition& at, double s
   }
   v.wheels.resize(wheels_.size());
   for (std::size_t i = 0; i < wheels_.size(); ++i)  // from the front: a rut is what the wheels before have made of it
-    if (i == 0 || wheels_[i].axle != wheels_[i - 1].axle) roll_axle(wheels_[i].axle, slip, rims, conditions, v.wheels);
+    if (i == 0 || wheels_[i].axle != wheels_[i - 1].axle)
+      roll_axle(wheels_[i].axle, slip, rims, conditions, v.wheels, found);
 
   double pull = 0.0, left = 0.0, load = 0.0;
   std::vector<VehiclePoint> sunk;
@@ -345,17 +363,23 @@ SteadyVehicle SteadyVehicles::at_slip(const VehicleCondition& at, double slip) c
   const Modes m = modes(at);
   std::vector<double> start(m.count(), 0.0);
   start[0] = 1.0;
+  std::vector<FoundSlip> found_slips(wheels_.size());
+  Trial last;
+  std::vector<double> last_x;  // of `last`
   const auto rest = [&](std::span<const double> x, std::span<double> f) {
     constexpr double far_off = 10.0;  // shares of the weight: the search takes a shorter step
     try {
-      std::ranges::copy(trial(at, slip, m, x).rest, f.begin());
+      last_x.clear();
+      last = trial(at, slip, m, x, found_slips);
+      last_x.assign(x.begin(), x.end());
+      std::ranges::copy(last.rest, f.begin());
     } catch (const VehicleGaveOut&) {
       if (at.curvature == 0.0) throw;
       std::ranges::fill(f, far_off);
     }
   };
   const gsl::SystemRoot root = gsl::system_root(rest, std::move(start), aimed_residual);
-  SteadyVehicle found = trial(at, slip, m, root.x).vehicle;
+  SteadyVehicle found = last_x == root.x ? std::move(last.vehicle) : trial(at, slip, m, root.x, found_slips).vehicle;
   for (std::size_t i = 0; i < found.wheels.size(); ++i)
     if (std::abs(found.wheels[i].result.at.yaw) >= across)
       throw VehicleGaveOut(GaveOut::backward, i, "it would have to roll backward or straight across");
@@ -365,7 +389,8 @@ SteadyVehicle SteadyVehicles::at_slip(const VehicleCondition& at, double slip) c
   throw VehicleGaveOut(GaveOut::slides, std::nullopt, "no balance of the forces across its travel: it slides");
 }
 
-SteadyVehicle SteadyVehicles::at_most(const VehicleCondition& at, bool braked) const {
+SteadyVehicle SteadyVehicles::at_most(const VehicleCondition& at, bool braked,
+                                      const std::optional<double>& about) const {
   const double sign = braked ? -1.0 : 1.0;
   std::optional<VehicleGaveOut> said;
   const auto height = [&](double slip) {
@@ -380,11 +405,31 @@ SteadyVehicle SteadyVehicles::at_most(const VehicleCondition& at, bool braked) c
   std::vector<gsl::Sample> samples;
   for (int i = 0; first + i * scanned_slip < last; ++i) samples.push_back({first + i * scanned_slip, 0.0});
   samples.push_back({last, 0.0});
-  for (gsl::Sample& sample : samples) sample.f = height(sample.x);
-  const auto top = std::ranges::max_element(samples, {}, &gsl::Sample::f);
+  std::vector<bool> asked(samples.size());
+  const auto ask = [&](std::size_t i) {
+    if (!asked[i]) samples[i].f = height(samples[i].x), asked[i] = true;
+    return samples[i].f;
+  };
+  const auto top_of_hill = [&](std::size_t from) {
+    for (std::size_t i = from;;) {
+      const std::size_t left = i > 0 ? i - 1 : i, right = std::min(i + 1, samples.size() - 1);
+      const std::size_t higher = ask(right) > ask(i) ? right : ask(left) > ask(i) ? left : i;
+      if (higher == i) return i;
+      i = higher;
+    }
+  };
+  std::size_t i = 0;
+  if (about) {
+    i = top_of_hill(static_cast<std::size_t>(std::lround((*about - first) / scanned_slip)));
+    for (std::size_t k = 0; samples[i].f == -HUGE_VAL && k < samples.size(); ++k)
+      if (ask(k) > -HUGE_VAL) i = top_of_hill(k);
+  } else {
+    for (std::size_t k = 0; k < samples.size(); ++k) ask(k);
+    i = static_cast<std::size_t>(std::ranges::max_element(samples, {}, &gsl::Sample::f) - samples.begin());
+  }
+  const auto top = samples.begin() + static_cast<std::ptrdiff_t>(i);
   if (top->f == -HUGE_VAL) throw VehicleGaveOut(*said);
   gsl::Sample best = *top;
-  const auto i = static_cast<std::size_t>(top - samples.begin());
   if (i > 0 && i + 1 < samples.size()) {
     const double floor = top->f - weight();  // where there is no balance
     const auto finite_height = [&](double slip) { return std::max(height(slip), floor); };
@@ -403,10 +448,8 @@ SteadyVehicle SteadyVehicles::pulling(const VehicleCondition& at) const {
   gsl::Sample before, first;
   double silent = 0.0;                  // the last slip without a balance before the first one with
   bool answered = false, ever = false;  // just before, and at any slip
-  const auto root = [&](double from, double to) {
-    const double slip = gsl::bracketed_root(missing, std::min(from, to), std::max(from, to), 1e-13, 1e-12 * weight(),
-                                            "the slip that gives a pull");
-    return at_slip(at, slip);
+  const auto root = [&](const gsl::Sample& from, const gsl::Sample& to) {
+    return at_slip(at, gsl::bracketed_root(missing, from, to, 1e-13, 1e-12 * weight(), "the slip that gives a pull"));
   };
   // From no slip outward: upward while it pulls too little, else downward.
   double direction = 0.0;
@@ -416,7 +459,7 @@ SteadyVehicle SteadyVehicles::pulling(const VehicleCondition& at) const {
     try {
       const double f = missing(slip);
       if (f == 0.0) return at_slip(at, slip);
-      if (answered && (before.f < 0.0) != (f < 0.0)) return root(before.x, slip);
+      if (answered && (before.f < 0.0) != (f < 0.0)) return root(before, {slip, f});
       before = {slip, f}, answered = true;
       if (!ever) first = before, ever = true;
       if (direction == 0.0) direction = f < 0.0 ? 1.0 : -1.0;
@@ -429,21 +472,23 @@ SteadyVehicle SteadyVehicles::pulling(const VehicleCondition& at) const {
   }
   if (!ever) throw VehicleGaveOut(*said);
   // In a tight turn the smallest slips may have no balance: where the first one with pulls too much, on toward them.
-  double enough = first.x;
+  gsl::Sample enough = first;
   constexpr double close = 1e-4;
-  while (said && first.f > 0.0 && enough - silent > close) {
-    const double slip = 0.5 * (silent + enough);
+  while (said && first.f > 0.0 && enough.x - silent > close) {
+    const double slip = 0.5 * (silent + enough.x);
     try {
-      if (missing(slip) <= 0.0) return root(slip, enough);
-      enough = slip;
+      const gsl::Sample middle{slip, missing(slip)};
+      if (middle.f <= 0.0) return root(middle, enough);
+      enough = middle;
     } catch (const VehicleGaveOut&) {
       silent = slip;
     }
   }
   const bool braked = direction < 0.0;
   const SteadyVehicle most = at_most(at, braked);  // it may lie between two of the slips above
-  if (first.f < 0.0 && most.pull >= at.pull) return root(first.x, most.slip);
-  if (first.f > 0.0 && most.pull <= at.pull) return root(first.x, most.slip);
+  const gsl::Sample farthest{most.slip, most.pull - at.pull};
+  if (first.f < 0.0 && farthest.f >= 0.0) return root(first, farthest);
+  if (first.f > 0.0 && farthest.f <= 0.0) return root(first, farthest);
   if (said) throw VehicleGaveOut(*said);
   const GaveOut why = why_too_little(most, braked);
   throw VehicleGaveOut(why, weakest_wheel(most),

@@ -145,9 +145,10 @@ class SteadyVehicles {
   /// Throws VehicleGaveOut.
   SteadyVehicle pulling(const VehicleCondition& at) const;
 
-  /// Where it pulls most, or, `braked`, least. Slips without a balance are passed over; throws what the first said
-  /// where there is no other.
-  SteadyVehicle at_most(const VehicleCondition& at, bool braked = false) const;
+  /// Where it pulls most, or, `braked`, least: of all slips, or, where one is given, on the hill at a slip `about`, or
+  /// at the first slip with a balance where it has none there. Slips without a balance are passed over; throws what the
+  /// first said where there is no other.
+  SteadyVehicle at_most(const VehicleCondition& at, bool braked = false, const std::optional<double>& about = {}) const;
 
   /// Weight on the soil's gravity [N].
   double weight() const;
@@ -161,18 +162,26 @@ class SteadyVehicles {
     double travel = 0.0;
     std::vector<double> asked{};
   };
+  /// Where the last search for a wheel's own slip ended.
+  struct FoundSlip {
+    double slip = 0.0;
+    double rise = 0.0;  ///< of what is missing in its torque, per slip [N m]; 0: none was found yet
+  };
   Turning turn(const VehicleCondition& at, const Modes& modes, SteadyVehicle& vehicle) const;
   Modes modes(const VehicleCondition& at) const;
   /// The largest slip that is looked at. At 100 % a drive line turns without end: across an open axle no wheel could
   /// then turn slower than the other.
   double fastest() const;
-  Trial trial(const VehicleCondition& at, double slip, const Modes& modes, std::span<const double> x) const;
+  Trial trial(const VehicleCondition& at, double slip, const Modes& modes, std::span<const double> x,
+              std::vector<FoundSlip>& found) const;
   SteadyWheel rolled(std::size_t wheel, const OperatingCondition& at) const;
-  /// The wheel at the slip next to `from` at which its torque is that of `torque(slip)`.
-  SteadyWheel free(std::size_t wheel, OperatingCondition at, const std::function<double(double)>& torque,
-                   double from) const;
+  /// The wheel at the slip at which its torque is that of `torque(slip)`: from where the last search for it ended, as
+  /// long as secants come much closer; else the one next to `from`, upward where its torque is less there, else
+  /// downward.
+  SteadyWheel free(std::size_t wheel, OperatingCondition at, const std::function<double(double)>& torque, double from,
+                   FoundSlip& found) const;
   void roll_axle(std::size_t axle, double slip, const Rims& rims, std::vector<OperatingCondition>& at,
-                 std::vector<SteadyWheel>& wheels) const;
+                 std::vector<SteadyWheel>& wheels, std::vector<FoundSlip>& found) const;
 
   const VehicleCase& vehicle_;
   const std::vector<VehicleWheel>& wheels_;

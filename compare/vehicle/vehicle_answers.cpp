@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bekker_wong/gsl.hpp"
 #include "compare/design/factor.hpp"
 #include "compare/vehicle/vehicle.hpp"
 #include "compare/vehicle/vehicle_errors.hpp"
@@ -121,38 +122,76 @@ VehicleLimit steepest(const VehicleCase& question, const std::vector<VehicleWhee
   const bool braked = way == SlopeWay::down;
   const double sign = braked ? -1.0 : 1.0, none = -vehicles.weight();
   VehicleLimit limit;
-  const auto spare = [&](double angle) {
+  double best_slip = 0.0;  // on `low`
+  /// What it pulls more than is asked at its best: of all slips, or on the hill at a slip.
+  const auto spare = [&](double angle, const std::optional<double>& about = {}) {
     const VehicleCondition at = on(question.condition, way, angle);
     try {
-      return std::max(sign * (vehicles.at_most(at, braked).pull - at.pull), none);
+      const SteadyVehicle most = vehicles.at_most(at, braked, about);
+      const double left = sign * (most.pull - at.pull);
+      if (left >= 0.0) best_slip = most.slip;
+      return std::max(left, none);
     } catch (const VehicleGaveOut& error) {
       limit.beyond = as_failure(error);
       return none;
     }
   };
-  const double level = spare(0.0);
-  double low = level >= 0.0 ? 0.0 : -steepest_asked, high = level >= 0.0 ? steepest_asked : 0.0;
-  if (way == SlopeWay::across && level < 0.0) return limit;
-  if (level < 0.0 && spare(low) < 0.0) return limit;
-  if (level >= 0.0 && spare(high) >= 0.0) return limit;
-  // By bisection: the spare pull ends at once where the vehicle tips over or slides.
+  const auto spare_at_best_slip = [&](double angle) {
+    const VehicleCondition at = on(question.condition, way, angle);
+    try {
+      return std::max(sign * (vehicles.at_slip(at, best_slip).pull - at.pull), none);
+    } catch (const VehicleGaveOut&) {
+      return none;
+    }
+  };
+  double at_low = spare(0.0), at_high = none;
+  double low = at_low >= 0.0 ? 0.0 : -steepest_asked, high = at_low >= 0.0 ? steepest_asked : 0.0;
+  if (way == SlopeWay::across && at_low < 0.0) return limit;
+  if (at_low < 0.0 && (at_low = spare(low)) < 0.0) return limit;
   constexpr double close = 1e-6;
-  double at_low = level >= 0.0 ? level : spare(low), at_high = none;
+  /// Where, from `low` on, what is spare at the best slip there ends, by secants; none where they meet a slope without
+  /// a balance.
+  const auto end_at_best_slip = [&]() -> std::optional<double> {
+    constexpr int most_secants = 10;
+    gsl::Sample before{low, at_low};
+    double angle = low + at_low / vehicles.weight();
+    for (int i = 0; i < most_secants; ++i) {
+      const gsl::Sample here{std::clamp(angle, low, high), spare_at_best_slip(std::clamp(angle, low, high))};
+      if (std::abs(here.f) <= 0.01 * close * vehicles.weight()) return here.x;
+      if (here.f == none || here.f == before.f) break;
+      angle = here.x - here.f * (here.x - before.x) / (here.f - before.f);
+      before = here;
+    }
+    return {};
+  };
+  bool other_slip = true;  // than the one whose end was looked for
+  double reach = 0.1;      // from a slope on which it goes to the next that is asked, while none is known beyond
   while (high - low > close) {
-    // Where the pull ends smoothly, as a rule the chord is near; else halves.
+    // At the slip that is best on one slope it goes as far as a slope at or below the steepest, whose best slip is
+    // asked next: Newton's method, by the envelope theorem.
+    const std::optional<double> end = std::exchange(other_slip, false) ? end_at_best_slip() : std::nullopt;
+    if (end && *end - 0.25 * close > low) low = *end - 0.25 * close, at_low = spare_at_best_slip(low);
+    // Elsewhere the chord is near as a rule; else halves: it ends at once where the vehicle tips over or slides.
     const double chord = at_high > none ? low + (high - low) * at_low / (at_low - at_high) : 0.5 * (low + high);
-    const double margin = 0.1 * (high - low), middle = std::clamp(chord, low + margin, high - margin);
-    const double f = spare(middle);
+    const double margin = 0.1 * (high - low);
+    double middle = std::clamp(chord, low + margin, high - margin);
+    if (end)
+      middle = std::min(*end + 0.25 * close, high);
+    else if (high == steepest_asked)
+      middle = std::min(low + std::exchange(reach, 1.5 * reach), middle);
+    double f = spare(middle, best_slip);
+    if (f < 0.0 && middle - low <= close) f = spare(middle);  // the last word is that of all slips
     if (f >= 0.0)
-      low = middle, at_low = f;
+      low = middle, at_low = f, other_slip = true;
     else
       high = middle, at_high = f;
   }
-  const SteadyVehicle last = vehicles.at_most(on(question.condition, way, low), braked);
+  if (high == steepest_asked) return limit;
+  const SteadyVehicle last = vehicles.at_most(on(question.condition, way, low), braked, best_slip);
   limit.slip = last.slip;
   limit.angle = Estimate{low, not_a_number};
   if (at_high == none) {
-    if (spare(high) == none && limit.beyond.why == GaveOut::tips_over) limit.angle->std_error = 0.0;
+    if (limit.beyond.why == GaveOut::tips_over) limit.angle->std_error = 0.0;
     return limit;
   }
   limit.beyond = {why_too_little(last, braked), weakest_wheel(last), ""};

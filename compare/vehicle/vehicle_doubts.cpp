@@ -100,6 +100,13 @@ Doubts doubts_about(const TurnAnswers& answers, Doubts notes) {
   return doubts_about(steady, std::move(notes));
 }
 
+Doubts doubts_about(const MeasuredAnswers& answers, Doubts notes) {
+  VehicleAnswers steady{answers.question, answers.wheels};
+  for (const ModelledState& state : answers.modelled)
+    if (state.vehicle && (!steady.steady || state.slip > steady.steady->slip)) steady.steady = state.vehicle;
+  return doubts_about(steady, std::move(notes));
+}
+
 Doubts doubts_about(const DrivenAnswers& answers, Doubts notes) {
   append(notes, doubts(answers.question));
   append(notes, doubts(answers.question.soil));

@@ -3,6 +3,7 @@
 
 #include "compare/doubts/doubt.hpp"
 #include "compare/vehicle/vehicle_answers.hpp"
+#include "compare/vehicle/vehicle_measured.hpp"
 #include "compare/vehicle/vehicle_turn.hpp"
 
 namespace soilbin::compare {
@@ -16,6 +17,8 @@ Doubts doubts(const VehicleCase& vehicle);
 Doubts doubts_about(const VehicleAnswers& answers, Doubts notes);
 /// Of a turn: as those of the steady vehicle.
 Doubts doubts_about(const TurnAnswers& answers, Doubts notes);
+/// Beside measured states: as those of the steady vehicle at the largest slip.
+Doubts doubts_about(const MeasuredAnswers& answers, Doubts notes);
 /// Of a drive: `notes`, then doubts about the vehicle and the soil; each once.
 Doubts doubts_about(const DrivenAnswers& answers, Doubts notes);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bekker_wong/gsl.hpp"
 #include "compare/vehicle/vehicle_errors.hpp"
 #include "scenario/unit.hpp"
 #include "scenario/yawed_frames.hpp"
@@ -160,11 +161,14 @@ Gradeability gradeability_of(const VehicleAnswers& answers, const Model& model) 
   const VehicleCase& question = answers.question;
   const SteadyVehicles vehicles(question, answers.wheels, model);
   const bool wheel_motors = has_wheel_motors(question);
-  const auto goes = [&](double slope) {
+  /// What motors and power give more than the travel takes on a slope, as a share; below 0 where it does not travel.
+  const auto spare_on = [&](double slope) {
+    constexpr double unlimited = 1.0, stands = -1.0;
     try {
-      return !not_held_by(question, vehicles.pulling(climbing(question.condition, slope)));
+      const auto spare = spare_of(question, vehicles.pulling(climbing(question.condition, slope)));
+      return spare ? std::min(spare->share, unlimited) : unlimited;
     } catch (const VehicleGaveOut&) {
-      return false;
+      return stands;
     }
   };
   const auto limit_on = [&](double slope) {
@@ -176,17 +180,18 @@ Gradeability gradeability_of(const VehicleAnswers& answers, const Model& model) 
       return TravelLimit::soil;
     }
   };
-  if (!answers.up.angle || !goes(0.0)) return {{}, limit_on(0.0)};
+  const double on_level = spare_on(0.0);
+  if (!answers.up.angle || on_level < 0.0) return {{}, limit_on(0.0)};
   constexpr double close = 1e-6;
-  double low = 0.0, high = answers.up.angle->value;
-  if (const double just_below = high - 10 * close; just_below <= 0.0 || goes(just_below))
+  const double steepest = answers.up.angle->value, just_below = steepest - 10 * close;
+  const double spare_below = just_below > 0.0 ? spare_on(just_below) : 0.0;
+  if (spare_below >= 0.0)
     return {answers.up.angle,
-            answers.up.beyond.why == GaveOut::torque ? limit_on(high + 10 * close) : TravelLimit::soil};
-  while (high - low > close) {
-    const double middle = 0.5 * (low + high);
-    (goes(middle) ? low : high) = middle;
-  }
-  Gradeability found{Estimate{low, not_a_number}, limit_on(high)};
+            answers.up.beyond.why == GaveOut::torque ? limit_on(steepest + 10 * close) : TravelLimit::soil};
+  const double end = gsl::bracketed_root(spare_on, {0.0, on_level}, {just_below, spare_below}, 0.01 * close,
+                                         0.01 * close, "the steepest slope at a speed");
+  const double low = end - 0.5 * close;
+  Gradeability found{Estimate{low, not_a_number}, limit_on(end + 0.5 * close)};
   if (wheel_motors) return found;
   // What is spare changes with soil and slope: by its share of what is taken, which has no jump.
   constexpr double step = 1e-4;

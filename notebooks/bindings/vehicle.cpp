@@ -9,6 +9,7 @@
 #include "compare/telling/reports.hpp"
 #include "compare/vehicle/vehicle_answers.hpp"
 #include "compare/vehicle/vehicle_doubts.hpp"
+#include "compare/vehicle/vehicle_measured.hpp"
 #include "notebooks/bindings/fields.hpp"
 #include "notebooks/bindings/scenario.hpp"
 
@@ -55,6 +56,16 @@ Document turned_vehicle(const VehicleCase& question, std::optional<double> radiu
     std::vector<compare::VehicleWheel> wheels = wheels_with_tires(question);
     Doubts notes = declare_tires(wheels, {.pressure = rigid, .lugs = no_lugs});
     const compare::TurnAnswers answers = compare::turn_of(question, wheels, wheel_model(), {radius, steer});
+    return {compare::json_text(report_on(answers).data()), compare::in_words(doubts_about(answers, std::move(notes)))};
+  });
+}
+
+Document beside_measured(const VehicleCase& question, const std::string& file, bool rigid, bool no_lugs) {
+  return unlocked([&]() -> Document {
+    std::vector<compare::VehicleWheel> wheels = wheels_with_tires(question);
+    Doubts notes = declare_tires(wheels, {.pressure = rigid, .lugs = no_lugs});
+    const compare::MeasuredAnswers answers = compare::beside_measured(
+        question, wheels, wheel_model(), compare::read_measured_vehicle(read_source_text(file, largest_csv)));
     return {compare::json_text(report_on(answers).data()), compare::in_words(doubts_about(answers, std::move(notes)))};
   });
 }
@@ -138,6 +149,8 @@ void bind_vehicle(py::module_& module) {
              py::arg("no_lugs"), py::arg("progress"), "Document and warnings; see soilbin.vehicle_on_soil.");
   module.def("turn_vehicle", &turned_vehicle, py::arg("vehicle"), py::arg("radius"), py::arg("steer"), py::arg("rigid"),
              py::arg("no_lugs"), "Document and warnings; see soilbin.turn_vehicle.");
+  module.def("vehicle_beside_measured", &beside_measured, py::arg("vehicle"), py::arg("file"), py::arg("rigid"),
+             py::arg("no_lugs"), "Document and warnings; see soilbin.vehicle_beside_measured.");
   module.def("drive_vehicle", &driven, py::arg("vehicle"), py::arg("samples"), py::arg("rigid"), py::arg("no_lugs"),
              py::arg("progress"), "Document and warnings; see soilbin.drive_vehicle.");
 }

@@ -175,6 +175,26 @@ TEST(VehicleCommand, RefusesATurnThatIsNone) {
   EXPECT_THAT(told("--turn --drive"), HasSubstr("--turn"));
 }
 
+TEST(VehicleCommand, StandsBesideWhatWasMeasured) {
+  const Scratch scratch;
+  const std::string file = scratch.write("climbs.csv", "slip_percent,slope_deg\n20,5\n60,20\n").string();
+  const Outcome run = soilbin("vehicle " + rover + " --measured '" + file + "'");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("beside 2 points of"), HasSubstr("root mean square over 2 points"),
+                             HasSubstr("over its standard error")));
+  const auto answer = soilbin("vehicle " + rover + " --measured '" + file + "' --json").json();
+  EXPECT_EQ(answer.at("format"), "soilbin-vehicle-measured/1");
+  EXPECT_EQ(answer.at("channel"), "slope");
+  const auto& point = answer.at("points").at(0);
+  EXPECT_DOUBLE_EQ(point.at("difference").get<double>(),
+                   point.at("model").at("value").get<double>() - point.at("measured").get<double>());
+  EXPECT_THAT(soilbin("vehicle " + rover + " --measured '" + file + "' --slope 5deg"),
+              Refuses(HasSubstr("--slope has no effect: the measured file has the slopes")));
+  const std::string bad = scratch.write("bad.csv", "slip,slope\n0.2,5\n").string();
+  EXPECT_THAT(soilbin("vehicle " + rover + " --measured '" + bad + "'"),
+              Refuses(AllOf(HasSubstr("bad.csv:1:6"), HasSubstr("hint: such as 'slope_deg'"))));
+}
+
 TEST(VehicleCommand, RefusesAMotorThatItCannotRead) {
   const Scratch scratch;
   const auto told = [&](const std::string& from, const std::string& to) {

@@ -1,4 +1,4 @@
-// What a vehicle can do at best, with errors; its file; and NASA's points of a rover on slopes.
+// What a vehicle can do at best, with errors; its file.
 
 #include "compare/vehicle/vehicle_answers.hpp"
 
@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "bekker_wong/effect_vocabulary.hpp"
-#include "bekker_wong/gsl.hpp"
 #include "bekker_wong/model.hpp"
 #include "compare/doubt_matchers.hpp"
 #include "compare/report/report.hpp"
@@ -260,31 +258,6 @@ TEST(GoMap, IsEvenAtTheSteepestSlopeAndFirstOrderNearBy) {
   EXPECT_NEAR(map.cells[0][0].chance, 0.84, 0.03);  // a Latin hypercube of one value has one in each fiftieth
   EXPECT_NEAR(map.cells[1][0].chance, 0.50, 0.03);
   EXPECT_NEAR(map.cells[2][0].chance, 0.16, 0.03);
-}
-
-/// The slope on which the rover travels at a slip, without a pull.
-double slope_at(const SteadyVehicles& rover, double slip) {
-  return gsl::bracketed_root([&](double slope) { return rover.at_slip({.slope = slope, .speed = 0.1}, slip).pull; },
-                             -20 * degree, 40 * degree, 1e-9, 1e-7, "the slope at a slip");
-}
-
-TEST(SlowVehicleAnswers, NasasRoverOnSlopesIsMetToFourDegrees) {
-  // Base and height of the centre of gravity are chosen; the wheel is smooth where NASA's has grousers.
-  const VehicleCase vehicle = library_vehicle("rover");
-  const auto wheels = wheels_of(vehicle);
-  const SteadyVehicles rover(vehicle, wheels, wheel_model);
-  std::ifstream in(cases_folder + "/measured/nasa/nasa-mgru3-2021-grc1-slip-slope.csv");
-  std::string line;
-  std::getline(in, line);
-  double slip = 0.0, slope = 0.0, squares = 0.0;
-  char comma = 0;
-  int count = 0;
-  while (in >> slip >> comma >> slope) {
-    const double off = slope_at(rover, slip / 100) / degree - slope;
-    squares += off * off, ++count;
-  }
-  ASSERT_EQ(count, 6);
-  EXPECT_LT(std::sqrt(squares / count), 4.5);  // 3.9 deg: at 5 and 13 % of slip it climbs 6 deg less than NASA's
 }
 
 }  // namespace

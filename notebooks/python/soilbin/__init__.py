@@ -82,7 +82,7 @@ from soilbin._soilbin import (
 from soilbin.exports import export_fmi, export_gazebo, export_scm, export_table
 from soilbin.other_codes import soil_from_liggghts
 from soilbin.questions import SoilbinWarning, conditions, estimate, names, run_study, sweep
-from soilbin.vehicles import drive_vehicle, turn_vehicle, vehicle_on_soil, wheels_frame
+from soilbin.vehicles import drive_vehicle, turn_vehicle, vehicle_beside_measured, vehicle_on_soil, wheels_frame
 
 __all__ = [
     "Bin", "Case", "ConeIndex", "Construction", "ContactPair", "Controller", "Drive", "DriveLine", "EffectChoice", "EffectForm", "Estimate", "ForceFrame",
@@ -93,5 +93,5 @@ __all__ = [
     "bekker_wong", "cases_folders", "compare", "conditions", "dem",
     "doubts", "drive_vehicle", "effect_catalogue", "estimate", "export_fmi", "export_gazebo", "export_scm", "export_table", "find_case",
     "find_soil", "find_tire", "find_vehicle", "in_words", "names", "parse_case", "parse_vehicle", "run_study", "soil_from_liggghts", "sweep",
-    "turn_vehicle", "vehicle_on_soil", "wheels_frame", "write_soil", "write_tire",
+    "turn_vehicle", "vehicle_beside_measured", "vehicle_on_soil", "wheels_frame", "write_soil", "write_tire",
 ]

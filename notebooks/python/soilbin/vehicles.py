@@ -1,6 +1,7 @@
 """A vehicle on soil: does it go, how steep, which wheel gives out (docs/guide/vehicle.md)."""
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import pandas as pd
@@ -46,6 +47,18 @@ def turn_vehicle(vehicle: Vehicle, *, radius: float | None = None, steer: float 
     such turn, `turn` is None and `why_not` says why. Raises InputError for a slope and for a vehicle that cannot turn.
     """
     return document(_soilbin.turn_vehicle(checked_vehicle(vehicle), radius, steer, rigid, no_lugs))
+
+
+@worded
+def vehicle_beside_measured(vehicle: Vehicle, file: str | os.PathLike[str], *, rigid: bool = False,
+                            no_lugs: bool = False) -> dict[str, Any]:
+    """The model beside slopes or pulls that were measured of the whole vehicle at slips of its drive line.
+
+    file: a CSV with the columns slip or slip_percent, and slope_deg, drawbar_pull_N or traction_angle_deg. Gives the
+    document soilbin-vehicle-measured/1, as `soilbin vehicle --measured --json` does; SI and radians. Raises InputError
+    with the place in the file.
+    """
+    return document(_soilbin.vehicle_beside_measured(checked_vehicle(vehicle), os.fspath(file), rigid, no_lugs))
 
 
 @worded
