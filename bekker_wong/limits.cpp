@@ -25,6 +25,15 @@ double pull_at(const RollingWheel& wheel, OperatingCondition at, double slip) {
   }
 }
 
+/// The lowest slip at which f is finite, between one without and one with a value, to 1e-9.
+double first_with_value(gsl::FunctionRef f, double without, double with) {
+  while (with - without > 1e-9) {
+    const double middle = 0.5 * (without + with);
+    (std::isfinite(f(middle)) ? with : without) = middle;
+  }
+  return with;
+}
+
 /// Highest point of f in [low, high], where it rises and then falls, by golden section.
 double summit(gsl::FunctionRef f, double low, double high) {
   constexpr double golden = 0.6180339887498949, narrow = 1e-7;
@@ -64,7 +73,10 @@ std::optional<double> slip_for_pull(const RollingWheel& wheel, const OperatingCo
   for (double slip = before + slip_step; slip < 1.0 + 0.5 * slip_step; slip += slip_step) {
     const double here = std::min(slip, 1.0), value = spare(here);
     if (value >= 0.0) {
-      if (!std::isfinite(at_before)) return here;
+      if (!std::isfinite(at_before)) {
+        before = first_with_value(spare, before, here);
+        if (spare(before) > 0.0) return {};
+      }
       return gsl::bracketed_root(spare, before, here, 1e-12, 1e-10 * at.load, "the slip for a pull");
     }
     before = here, at_before = value;

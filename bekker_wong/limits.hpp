@@ -23,7 +23,8 @@ struct PullPeak {
 PullPeak largest_pull(const RollingWheel& wheel, const OperatingCondition& at, double max_slip = 1.0);
 
 /// Smallest slip above -0.5 at which the wheel pulls `drawbar` [N] on the slope that `at` gives; one below where it
-/// pulls more at -0.5, as steep downhill. None where it can't, or where it pulls more even when locked.
+/// pulls more at -0.5, as steep downhill. None where it can't, or where it pulls more even when locked or at the lowest
+/// slip at which the soil carries it.
 std::optional<double> slip_for_pull(const RollingWheel& wheel, const OperatingCondition& at, double drawbar = 0.0);
 
 /// The largest load [N] up to `beyond` that the soil carries under the wheel at the slip and on the slope of `at`, to

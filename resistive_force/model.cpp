@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 #include "resistive_force/response.hpp"
 #include "scenario/errors.hpp"
@@ -31,7 +33,28 @@ GroundForce turned_change(const SoilForces& change, const OperatingCondition& at
   return turned({change.pull, change.left}, at.yaw, ForceFrame::travel, at.force_frame);
 }
 
-void add_errors(TractionResult& result, const Balance& balance, const ResistiveForceSoil& soil) {
+/// What the surface friction changes, over one standard deviation to both sides: it caps the traction of one element
+/// after another, so a derivative would know one side alone. A side without a balance is left out.
+Balance::Slopes by_friction(const PushedWheel& wheel, const Balance& here, const ResistiveForceSoil& soil) {
+  const double friction = soil.surface_friction.value, sd = soil.surface_friction.std_error;
+  const auto at = [&](double changed) -> std::optional<std::pair<double, Balance>> {
+    try {
+      return std::pair{changed, wheel.balance({soil.xi_n.value, changed})};
+    } catch (const NoSolution&) {
+      return {};
+    }
+  };
+  const auto [low, a] = at(std::max(0.0, friction - sd)).value_or(std::pair{friction, here});
+  const auto [high, b] = at(friction + sd).value_or(std::pair{friction, here});
+  if (!(high > low)) return {};
+  const double per = 1.0 / (high - low);
+  return {per * (b.sinkage - a.sinkage),
+          {per * (b.forces.pull - a.forces.pull), per * (b.forces.left - a.forces.left),
+           per * (b.forces.vertical - a.forces.vertical), per * (b.forces.torque - a.forces.torque)}};
+}
+
+void add_errors(TractionResult& result, const PushedWheel& wheel, const Balance& balance,
+                const ResistiveForceSoil& soil) {
   const auto add = [&](const Balance::Slopes& slopes, double sd) {
     if (!(sd > 0.0)) return;
     const GroundForce force = turned_change(slopes.forces, result.at);
@@ -41,7 +64,7 @@ void add_errors(TractionResult& result, const Balance& balance, const ResistiveF
       estimate->std_error = std::hypot(estimate->std_error, sd * slope);
   };
   add(balance.by_xi_n, soil.xi_n.std_error);
-  add(balance.by_surface_friction, soil.surface_friction.std_error);
+  if (soil.surface_friction.std_error > 0.0) add(by_friction(wheel, balance, soil), soil.surface_friction.std_error);
 }
 
 /// Parts of the pull: tread base, lugs, sides, slope.
@@ -113,7 +136,7 @@ TractionResult ResistiveForce::evaluate(const Scenario& scenario, const Operatin
   result.lateral_force.value = force.left;
   result.torque.value = balance.forces.torque;
   result.sinkage.value = balance.sinkage;
-  add_errors(result, balance, soil);
+  add_errors(result, wheel, balance, soil);
   constexpr double rounding = 1e-12;  // of the load: what triangles that are no mirror images leave of a balance
   if (std::abs(force.left) < rounding * at.load && result.lateral_force.std_error < rounding * at.load)
     result.lateral_force = {};

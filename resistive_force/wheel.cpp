@@ -149,22 +149,9 @@ Balance PushedWheel::balance(const Medium& medium) const {
   const Sums here = sums(by_depth, b.sinkage);
   b.forces = scaled(medium.xi_n, here.forces);
 
-  // What a parameter changes at this depth, and how the depth then changes so that the load is carried again.
-  const auto balanced = [&](const SoilForces& direct) {
-    const double carried_by_depth = medium.xi_n * here.by_depth.vertical;
-    Balance::Slopes s;
-    s.sinkage = -direct.vertical / carried_by_depth;
-    s.forces = sum(direct, scaled(medium.xi_n * s.sinkage, here.by_depth));
-    return s;
-  };
-  b.by_xi_n = balanced(here.forces);
-  std::vector<Vec3> by_friction(contacts_.size());
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const double normal = length(contacts_[i].normal), tangential = length(contacts_[i].tangential);
-    if (tangential > medium.surface_friction * normal)
-      by_friction[i] = (gravity_share_ / turns_ * normal / tangential) * contacts_[i].tangential;
-  }
-  b.by_surface_friction = balanced(scaled(medium.xi_n, sums(by_friction, b.sinkage).forces));
+  // What xi_n changes at this depth, and how the depth then changes so that the load is carried again.
+  b.by_xi_n.sinkage = -here.forces.vertical / (medium.xi_n * here.by_depth.vertical);
+  b.by_xi_n.forces = sum(here.forces, scaled(medium.xi_n * b.by_xi_n.sinkage, here.by_depth));
   return b;
 }
 

@@ -36,7 +36,7 @@ struct Balance {
     double sinkage = 0.0;
     SoilForces forces;
   };
-  Slopes by_xi_n, by_surface_friction;  ///< derivatives of the balanced wheel
+  Slopes by_xi_n;  ///< derivatives of the balanced wheel
 };
 
 /// What a strip across the wheel bears, per area of the tread base below it.

@@ -83,9 +83,15 @@ constexpr DoubtSentence sentences[] = {
     D(drives_without_slip, "a driven wheel needs no slip{at}: its rim is slower than its travel, because the model "
       "shears the soil under a large or deep wheel before it slips. Real driven wheels slip by some percent: take "
       "slips below 5 %, and what is climbed or pulled with them, as bounds"),
+    D(slips_little, "its driven wheels slip by {:.2g} % at most: real ones slip by some percent more, so take slips below "
+      "5 %, and what is climbed or pulled with them, as bounds"),
     D(slope_slides, "from {:.3g} deg on this soil slides by itself (c, phi, at a depth of the wheel's radius){at}"),
     D(heavy_and_lugged, "the pull of a heavy lugged tire on sand is rather too high: beside grains that resolve the lugs "
       "by 20 to 24 % of the load (docs/guide/trust-the-estimate.md)"),
+    D(heavy_and_smooth, "the pull of a heavy tire on sand is rather too high without lugs too: beside grains by 20 % of "
+      "the load (docs/guide/trust-the-estimate.md)"),
+    D(sinkage_in_rut, "after the first pass sinkage counts from the floor of the rut that the passes before have left; "
+      "by {} these floors add up without end, by multipass:rut_power the whole rut grows as measured ones do"),
     D(beyond_learned, "the learned effect ({}) was learned from another range of the {}: its value at the edge of "
       "that range is used{at}"),
     D(errors_left_out, "the standard errors leave out the soil's {}"),

@@ -115,13 +115,20 @@ Doubts slope_slides(const Scenario& scenario, const OperatingCondition& at) {
 
 /// A wheel like those of the failure map heavy-lugged-incline (docs/lab/failure-maps.md): 10 to 40 kN on a tire of 0.7
 /// m radius with lugs of 45 mm, on sand of 3.9 kPa and 31 deg; what is like it is chosen.
-Doubts heavy_and_lugged(const Scenario& scenario, const Answer& answer) {
+Doubts heavy_on_sand(const Scenario& scenario, const Answer& answer) {
   const bekker_wong::SoilValues soil = bekker_wong::values_of(*scenario.soil.semi_empirical);
   const bool frictional = soil.cohesion < 5e3 && soil.friction_angle > 0.35;
-  if (!(scenario.tire.lugs.height > 0.0) || answer.at.load < 10e3 || !frictional ||
-      !(answer.result->drawbar_pull.value > 0.0))
-    return {};
-  return {Doubt{DoubtKind::heavy_and_lugged}};
+  if (answer.at.load < 10e3 || !frictional || !(answer.result->drawbar_pull.value > 0.0)) return {};
+  return {Doubt{scenario.tire.lugs.height > 0.0 ? DoubtKind::heavy_and_lugged : DoubtKind::heavy_and_smooth}};
+}
+
+/// A sinkage that is not the depth of the rut.
+Doubts sinkage_in_rut(const Scenario& scenario, const OperatingCondition& at) {
+  if (at.pass < 2) return {};
+  for (const EffectChoice& effect : scenario.effects)
+    if (effect.id == "multipass" && effect.form != "rut_power" && effect.form != "reload_from_surface")
+      return {Doubt{DoubtKind::sinkage_in_rut, {effect.id + (effect.form.empty() ? "" : ":" + effect.form)}}};
+  return {};
 }
 
 /// A driven wheel that needs no slip to carry itself, or to pull: the rim is slower than the travel.
@@ -154,7 +161,8 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Doubts& a
   append(all, pull_without_slip(scenario, answer));
   append(all, drives_without_slip(answer));
   append(all, slope_slides(scenario, at));
-  append(all, heavy_and_lugged(scenario, answer));
+  append(all, heavy_on_sand(scenario, answer));
+  append(all, sinkage_in_rut(scenario, at));
 }
 
 /// Doubts of all answers, equal ones once.

@@ -72,8 +72,7 @@ Doubts cone_index_doubts(const Scenario& scenario, const std::vector<OperatingCo
     const auto& [diameter, width, height, deflection] = taken.measures;
     if (taken.section_height_assumed)
       add_once({DoubtKind::section_height_assumed, {1000 * height, 100 * height / width}});
-    if (!number.sand && !scenario.tire.construction)
-      add_once({DoubtKind::construction_unknown});
+    if (!number.sand && !scenario.tire.construction) add_once({DoubtKind::construction_unknown});
     if (taken.deflection == DeflectionFrom::pressure)
       all.push_back({DoubtKind::firm_deflection_by_pressure, {1000 * deflection, 100 * deflection / height}, at});
     if (taken.deflection == DeflectionFrom::assumed)

@@ -184,14 +184,14 @@ std::string measured_csv(const MeasuredAnswers& answers) {
   for (std::size_t i = 0; i < answers.modelled.size(); ++i) {
     const MeasuredState& measured = answers.measured.states[i];
     const ModelledState& state = answers.modelled[i];
-    const auto cell = [&](const std::optional<double>& si) { return csv_number(si.value_or(not_a_number)); };
-    const auto value = state.value ? std::optional(state.value->value * shown_scale(answers)) : std::nullopt;
-    const auto error = state.value ? std::optional(state.value->std_error * shown_scale(answers)) : std::nullopt;
-    const auto off = answers.difference(i);
+    const double scale = shown_scale(answers);
+    const Estimate value = state.value.value_or(Estimate{not_a_number, not_a_number});
     text += fmt::format("{},{}{},{},{},{},{},{}\n", csv_number(state.slip),
                         sloping ? csv_number(*measured.slope * per_unit("deg")) + "," : "",
-                        csv_number(measured.value * shown_scale(answers)), cell(value), cell(error),
-                        cell(off ? std::optional(*off * shown_scale(answers)) : off), cell(errors_off(answers, i)),
+                        csv_number(measured.value * scale), csv_number(value.value * scale),
+                        csv_number(value.std_error * scale),
+                        csv_number(answers.difference(i).value_or(not_a_number) * scale),
+                        csv_number(errors_off(answers, i).value_or(not_a_number)),
                         state.failure ? csv_cell(failure_in_words(answers.wheels, *state.failure)) : "");
   }
   return text;

@@ -144,10 +144,32 @@ VehicleLimit steepest(const VehicleCase& question, const std::vector<VehicleWhee
       return none;
     }
   };
-  double at_low = spare(0.0), at_high = none;
-  double low = at_low >= 0.0 ? 0.0 : -steepest_asked, high = at_low >= 0.0 ? steepest_asked : 0.0;
-  if (way == SlopeWay::across && at_low < 0.0) return limit;
-  if (at_low < 0.0 && (at_low = spare(low)) < 0.0) return limit;
+  /// Whether it has a balance at the pull that is asked; else what ends it stands in `beyond`.
+  const auto travels = [&](double angle) {
+    try {
+      vehicles.pulling(on(question.condition, way, angle));
+      return true;
+    } catch (const VehicleGaveOut& error) {
+      limit.beyond = as_failure(error);
+      return false;
+    }
+  };
+  double at_low = spare(0.0), at_high = none, low = 0.0, high = steepest_asked;
+  if (at_low < 0.0) {
+    // Not on the level: perhaps on a descent, the gentlest that it travels on.
+    if (way == SlopeWay::across) return limit;
+    constexpr double step = 1.0 * degree, gentle = 20.0 * degree;  // chosen
+    const VehicleFailure on_level = limit.beyond;
+    double descent = step;
+    while (descent < gentle && !travels(braked ? descent : -descent)) descent += step;
+    if (descent >= gentle) {
+      limit.beyond = on_level;
+      return limit;
+    }
+    low = braked ? descent : -descent;
+    if (!braked) high = step - descent;
+    if ((at_low = spare(low)) < 0.0) return limit;
+  }
   constexpr double close = 1e-6;
   /// Where, from `low` on, what is spare at the best slip there ends, by secants; none where they meet a slope without
   /// a balance.
@@ -187,6 +209,20 @@ VehicleLimit steepest(const VehicleCase& question, const std::vector<VehicleWhee
       high = middle, at_high = f;
   }
   if (high == steepest_asked) return limit;
+  constexpr double beside = 0.05 * degree;
+  if (!travels(low - beside)) {  // at less slip than that of its largest pull a wheel gives out
+    constexpr double back = 0.5 * degree;
+    double beyond = low;
+    while (!travels(low = beyond - back))
+      if ((beyond = low) < -steepest_asked) return limit;
+    while (beyond - low > close) {
+      const double middle = 0.5 * (low + beyond);
+      (travels(middle) ? low : beyond) = middle;
+    }
+    limit.slip = vehicles.pulling(on(question.condition, way, low)).slip;
+    limit.angle = Estimate{low, not_a_number};
+    return limit;
+  }
   const SteadyVehicle last = vehicles.at_most(on(question.condition, way, low), braked, best_slip);
   limit.slip = last.slip;
   limit.angle = Estimate{low, not_a_number};

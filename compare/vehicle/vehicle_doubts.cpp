@@ -63,6 +63,18 @@ void add_load_doubts(const VehicleCase& vehicle, Doubts& all) {
   if (worst) all.push_back(*worst);
 }
 
+/// A vehicle that is driven, pulls or climbs, and hardly slips: estimate warns of it where the slip was asked for.
+Doubts slips_little(const VehicleAnswers& answers, const Doubts& told) {
+  constexpr double little = 0.05;
+  const auto tells = [](const Doubt& doubt) { return doubt.kind == DoubtKind::drives_without_slip; };
+  if (!answers.steady || std::ranges::any_of(told, tells)) return {};
+  double most = -1.0;
+  for (const SteadyWheel& wheel : answers.steady->wheels)
+    if (!wheel.lifted && wheel.power_in > 0.0) most = std::max(most, wheel.result.at.slip);
+  if (most == -1.0 || most >= little) return {};
+  return {Doubt{DoubtKind::slips_little, {100 * most}}};
+}
+
 }  // namespace
 
 Doubts doubts(const VehicleCase& vehicle) {
@@ -88,8 +100,12 @@ Doubts doubts_about(const VehicleAnswers& answers, Doubts notes) {
     question.study.conditions = {result.at};
     append(notes, doubts(question, {{question.study.models.front(), {{result.at, result, ""}}}}));
   }
-  std::erase_if(notes, [](const Doubt& doubt) {  // wheels in front have no rut, and the speed makes the power
-    return doubt.kind == DoubtKind::effect_without_pass || doubt.kind == DoubtKind::speed_ignored;
+  append(notes, slips_little(answers, notes));
+  std::erase_if(notes, [](const Doubt& doubt) {
+    // Wheels in front have no rut, the speed makes the power, gravity the loads; axles tell the pass.
+    return doubt.kind == DoubtKind::effect_without_pass || doubt.kind == DoubtKind::speed_ignored ||
+           (doubt.kind == DoubtKind::soil_weight_ignored && doubt.says[0] == Said("gravity")) ||
+           (doubt.kind == DoubtKind::condition_ignored && doubt.says[0] == Said("pass"));
   });
   return once_each(notes);
 }

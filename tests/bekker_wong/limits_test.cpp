@@ -64,6 +64,34 @@ TEST(Limits, ASteepDescentIsBrakedFurtherOrNotHeld) {
   EXPECT_TRUE(not_held);
 }
 
+// Soft and steep: braked hard the wheel is buried. Where the least braked slip that the soil carries pulls more than is
+// asked, no slip pulls that; else the one found does.
+TEST(Limits, ASlipBesideABurialPullsWhatIsAskedOrThereIsNone) {
+  SoilValues soft = bed::sand();
+  soft.k_phi *= 0.1;
+  const RollingWheel wheel = wheel_on(soft);
+  int found = 0, none = 0;
+  for (double load = 100; load < 3000; load *= 1.03)
+    for (const double slope : {0.0, -4 * degree, -10 * degree}) {
+      OperatingCondition at = bed::driven(load);
+      at.longitudinal_incline = slope;
+      std::optional<double> slip;
+      try {
+        slip = slip_for_pull(wheel, at);
+      } catch (const NoSolution&) {
+        continue;
+      }
+      if (!slip) {
+        ++none;
+        continue;
+      }
+      ++found, at.slip = *slip;
+      EXPECT_NEAR(wheel.roll(at).reading.drawbar_pull, 0.0, 1e-6 * load) << load << " " << slope;
+    }
+  EXPECT_GT(found, 10);
+  EXPECT_GT(none, 10);
+}
+
 TEST(Limits, OnTheSteepestSlopeTheLargestPullIsNone) {
   const RollingWheel wheel = wheel_on(bed::sand());
   OperatingCondition at = bed::driven(400);

@@ -1,8 +1,10 @@
 // soilbin vehicle: a vehicle of the library as text and JSON, one that does not travel, and what checks its file.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <string>
 
+#include "scenario/unit.hpp"
 #include "tests/cli/command.hpp"
 
 namespace soilbin::cli::test {
@@ -29,6 +31,19 @@ TEST(VehicleCommand, SaysWhyAndWhereItDoesNotTravel) {
   EXPECT_TRUE(answer.at("steady").is_null());
   EXPECT_EQ(answer.at("failure").at("why"), "pull");
   EXPECT_GT(answer.at("steepest").at("up").at("slope").at("value").get<double>(), 0.3);
+}
+
+// Where it does not travel on the level there is no steepest slope, or one that it travels on, and just beyond not.
+TEST(SlowVehicleCommand, TheSteepestSlopeIsOneThatItTravels) {
+  const nlohmann::json wet = soilbin("vehicle truck --soil sandy-loam-wet --json").json()["steepest"];
+  for (const char* way : {"up", "down"}) EXPECT_TRUE(wet[way]["slope"].is_null()) << way;
+  const double up = soilbin("vehicle truck --soil heavy-clay --json").json()["steepest"]["up"]["slope"]["value"];
+  EXPECT_LT(up, 0);
+  for (const double beside : {-0.005, 0.005}) {
+    const std::string at =
+        fmt::format("vehicle truck --soil heavy-clay --json --slope={:.6f}deg", (up + beside) / degree);
+    EXPECT_EQ(!soilbin(at).json()["steady"].is_null(), beside < 0) << at;
+  }
 }
 
 TEST(VehicleCommand, TakesTheDensityOfASoilWithBeds) {

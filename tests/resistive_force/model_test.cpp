@@ -59,15 +59,30 @@ TEST(ResistiveForce, TurnsItsForcesToTheWheelsAxes) {
 }
 
 TEST(ResistiveForce, ErrsAsItsTwoValuesDo) {
-  Scenario exact = on_sand(), soft = on_sand(), smooth = on_sand();
+  Scenario exact = on_sand(), soft = on_sand(), rough = on_sand(), smooth = on_sand();
   const auto pull = [](const Scenario& s) { return ResistiveForce().evaluate(s, uphill).drawbar_pull; };
   exact.soil.resistive_force->xi_n.std_error = exact.soil.resistive_force->surface_friction.std_error = 0;
   EXPECT_EQ(pull(exact).std_error, 0.0);
   soft.soil.resistive_force->xi_n.value += 1e3;
-  smooth.soil.resistive_force->surface_friction.value += 1e-3;
+  rough.soil.resistive_force->surface_friction.value += 0.05;
+  smooth.soil.resistive_force->surface_friction.value -= 0.05;
   const double by_xi = (pull(soft).value - pull(exact).value) / 1e3 * 1e5;
-  const double by_friction = (pull(smooth).value - pull(exact).value) / 1e-3 * 0.05;
+  const double by_friction = (pull(rough).value - pull(smooth).value) / 2;
   EXPECT_NEAR(pull(on_sand()).std_error, std::hypot(by_xi, by_friction), 0.02 * std::hypot(by_xi, by_friction));
+}
+
+// Where friction caps no traction, more of it changes nothing and less of it does: the error knows that side.
+TEST(ResistiveForce, ErrsToTheSideOnWhichFrictionBegins) {
+  Scenario scenario = on_sand();
+  ResistiveForceSoil& soil = *scenario.soil.resistive_force;
+  const auto torque = [&](double friction, double sd) {
+    soil.xi_n.std_error = 0, soil.surface_friction = {friction, sd};
+    return ResistiveForce().evaluate(scenario, uphill).torque;
+  };
+  const double enough = 3.0, sd = 2.8;
+  EXPECT_EQ(torque(enough, 0).value, torque(enough + sd, 0).value);
+  EXPECT_NEAR(torque(enough, sd).std_error, 0.5 * std::abs(torque(enough, 0).value - torque(enough - sd, 0).value),
+              1e-9);
 }
 
 TEST(ResistiveForce, TakesASoilsDensityAndFrictionWhereNothingIsDeclared) {
