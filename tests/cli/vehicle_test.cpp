@@ -171,7 +171,7 @@ TEST(VehicleCommand, RefusesATurnThatIsNone) {
   EXPECT_THAT(told("--turn --slope 5deg"), HasSubstr("on a slope no turn is steady"));
   EXPECT_THAT(told("--radius 5m"), HasSubstr("--turn"));
   EXPECT_THAT(told("--turn --radius 5deg"), HasSubstr("--radius"));
-  EXPECT_THAT(told("--turn --radius 0m"), HasSubstr("a radius other than 0"));
+  EXPECT_THAT(told("--turn --radius 0m"), HasSubstr("a steered axle does not turn it on the spot"));
   EXPECT_THAT(told("--turn --drive"), HasSubstr("--turn"));
 }
 
