@@ -100,12 +100,13 @@ GroundForce in_wheel_plane(const SteadyWheel& wheel) {
 }
 
 Table turning_wheels_table(const TurnAnswers& answers) {
+  const bool on_the_spot = answers.turn->radius == 0.0;
   Table table{"Wheels",
-              {"wheel", "load [N]", "steered [deg]", "slip [%]", "slip angle [deg]", "force ahead [N]",
-               "force to its left [N]", "torque [N m]", "sinkage [mm]"}};
+              {"wheel", "load [N]", on_the_spot ? "rolls" : "steered [deg]", "slip [%]", "slip angle [deg]",
+               "force ahead [N]", "force to its left [N]", "torque [N m]", "sinkage [mm]"}};
   for (std::size_t i = 0; i < answers.wheels.size(); ++i) {
     const SteadyWheel& wheel = answers.turn->vehicle.wheels[i];
-    const std::string steer = number(wheel.steer / degree);
+    const std::string steer = !on_the_spot ? number(wheel.steer / degree) : wheel.backward ? "backward" : "ahead";
     if (wheel.lifted) {
       table.add({answers.wheels[i].name, "0", steer, "off the ground", "-", "-", "-", "-", "-"});
       continue;
@@ -113,8 +114,7 @@ Table turning_wheels_table(const TurnAnswers& answers) {
     const TractionResult& r = wheel.result;
     const GroundForce force = in_wheel_plane(wheel);
     const SteadyErrors::Wheel e = i < answers.errors.wheels.size() ? answers.errors.wheels[i] : SteadyErrors::Wheel{};
-    const std::string note = wheel.at_largest_torque ? "at its largest torque" : wheel.backward ? "backward" : "";
-    table.add({{answers.wheels[i].name, note},
+    table.add({{answers.wheels[i].name, wheel.at_largest_torque ? "at its largest torque" : ""},
                number({wheel.normal_load, told_error(e.normal_load)}),
                steer,
                number({r.at.slip, told_error(e.slip)}, 100),
@@ -127,8 +127,7 @@ Table turning_wheels_table(const TurnAnswers& answers) {
   table.legend =
       "Slip angle: by which the wheel points to the left of its own travel (yaw). Forces of the soil, in the wheel's "
       "plane and across it.";
-  if (std::ranges::any_of(answers.turn->vehicle.wheels, &SteadyWheel::backward))
-    table.legend += " What rolls backward is told as seen backward.";
+  if (on_the_spot) table.legend += " Of a wheel that rolls backward: as seen in the direction in which it rolls.";
   return table;
 }
 
