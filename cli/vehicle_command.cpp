@@ -96,9 +96,9 @@ void add_vehicle(CLI::App& app, Session& session) {
       command->add_flag("--turn", options->turn, "the tightest steady turn on level ground, and what ends it")
           ->excludes(map)
           ->excludes(measured);
-  CLI::Option* radius =
-      add_value(*command, "--radius", options->radius, "m", "of the turn that is asked, to the left positive")
-          ->needs(turn);
+  CLI::Option* radius = add_value(*command, "--radius", options->radius, "m",
+                                  "of the turn that is asked, to the left positive; 0: on the spot")
+                            ->needs(turn);
   add_value(*command, "--steer", options->steer, "deg",
             "steering angle of the turn that is asked, to the left positive")
       ->needs(turn)

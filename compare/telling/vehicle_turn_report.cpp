@@ -28,6 +28,13 @@ std::string turn_end_in_words(const TurnAnswers& answers, const TurnEnd& end) {
   return failure_in_words(answers.wheels, end.failure);
 }
 
+std::string why_not_in_words(const TurnAnswers& answers) {
+  const TurnEnd& why = *answers.why_not;
+  if (answers.asked.radius == 0.0 && why.limit == TurnLimit::balance && why.failure.why == GaveOut::pull)
+    return "at every slip the soil holds its wheels across more than it lets them drive";
+  return turn_end_in_words(answers, why);
+}
+
 bool is_steered_vehicle(const VehicleCase& question) { return std::ranges::any_of(question.axles, is_steered); }
 
 std::string radius_text(double radius, double error = 0.0) {
@@ -37,6 +44,7 @@ std::string radius_text(double radius, double error = 0.0) {
 std::string asked_of_turn(const TurnAnswers& answers) {
   const TurnAsked& asked = answers.asked;
   const auto side = [](double to_left) { return to_left < 0.0 ? "right" : "left"; };
+  if (asked.radius == 0.0) return "on the spot, to the left";
   if (asked.radius) return fmt::format("a turn of {} to the {}", radius_text(*asked.radius), side(*asked.radius));
   if (asked.steer)
     return fmt::format("a turn to the {} with {} deg of steering", side(*asked.steer),
@@ -54,16 +62,22 @@ std::vector<BackedSentence> turn_verdicts(const TurnAnswers& answers) {
         is_steered_vehicle(answers.question)
             ? fmt::format(" Steering: {} deg.", number({std::abs(v.steering), told_error(e.steering)}, 1 / degree))
             : "";
+    const bool on_the_spot = turn.radius == 0.0;
+    const std::string rate = number(std::abs(turn.rate) / degree, 3);
     said.push_back(
-        {"It turns", fmt::format("Radius {} of its centre of gravity, {} of its outermost wheel, {} deg a second.{}",
-                                 radius_text(turn.radius), radius_text(turn.widest),
-                                 number(std::abs(v.at.speed / turn.radius) / degree, 3), steering)});
-    said.push_back({"That takes", fmt::format("{} % of slip of the drive line and {} W, {} J a metre.",
-                                              number({v.slip, told_error(e.slip)}, 100),
-                                              number({v.power.into_wheels, told_error(e.into_wheels)}),
-                                              number(v.power.into_wheels / v.at.speed, 3))});
+        {"It turns",
+         on_the_spot ? fmt::format("On the spot, {} deg a second; its outermost wheel runs {} from the centre.", rate,
+                                   radius_text(turn.widest))
+                     : fmt::format("Radius {} of its centre of gravity, {} of its outermost wheel, {} deg a second.{}",
+                                   radius_text(turn.radius), radius_text(turn.widest), rate, steering)});
+    said.push_back(
+        {"That takes",
+         fmt::format("{} % of slip of the drive line and {} W, {} J a {}.", number({v.slip, told_error(e.slip)}, 100),
+                     number({v.power.into_wheels, told_error(e.into_wheels)}),
+                     number(v.power.into_wheels / (on_the_spot ? turn.rate / (360 * degree) : v.at.speed), 3),
+                     on_the_spot ? "full turn" : "metre")});
   } else {
-    said.push_back({"It does not turn so", capital(turn_end_in_words(answers, *answers.why_not)) + "."});
+    said.push_back({"It does not turn so", capital(why_not_in_words(answers)) + "."});
   }
   if (answers.tightest)
     said.push_back({"Tightest turn", fmt::format("Radius {}. A tighter one: {}.",
@@ -86,12 +100,13 @@ GroundForce in_wheel_plane(const SteadyWheel& wheel) {
 }
 
 Table turning_wheels_table(const TurnAnswers& answers) {
+  const bool on_the_spot = answers.turn->radius == 0.0;
   Table table{"Wheels",
-              {"wheel", "load [N]", "steered [deg]", "slip [%]", "slip angle [deg]", "force ahead [N]",
-               "force to its left [N]", "torque [N m]", "sinkage [mm]"}};
+              {"wheel", "load [N]", on_the_spot ? "rolls" : "steered [deg]", "slip [%]", "slip angle [deg]",
+               "force ahead [N]", "force to its left [N]", "torque [N m]", "sinkage [mm]"}};
   for (std::size_t i = 0; i < answers.wheels.size(); ++i) {
     const SteadyWheel& wheel = answers.turn->vehicle.wheels[i];
-    const std::string steer = number(wheel.steer / degree);
+    const std::string steer = !on_the_spot ? number(wheel.steer / degree) : wheel.backward ? "backward" : "ahead";
     if (wheel.lifted) {
       table.add({answers.wheels[i].name, "0", steer, "off the ground", "-", "-", "-", "-", "-"});
       continue;
@@ -112,6 +127,7 @@ Table turning_wheels_table(const TurnAnswers& answers) {
   table.legend =
       "Slip angle: by which the wheel points to the left of its own travel (yaw). Forces of the soil, in the wheel's "
       "plane and across it.";
+  if (on_the_spot) table.legend += " Of a wheel that rolls backward: as seen in the direction in which it rolls.";
   return table;
 }
 
@@ -183,6 +199,7 @@ Json turning_wheel_json(const VehicleWheel& about, const SteadyWheel& wheel) {
   const GroundForce force = in_wheel_plane(wheel);
   json["normal_load"] = wheel.normal_load;
   json["speed"] = r.at.speed;
+  json["backward"] = wheel.backward;
   json["slip"] = r.at.slip;
   json["yaw"] = r.at.yaw;
   json["force_forward"] = force.forward;
@@ -197,14 +214,10 @@ Json turning_wheel_json(const VehicleWheel& about, const SteadyWheel& wheel) {
 
 Json turn_json(const TurnAnswers& answers, const VehicleTurn& turn) {
   const SteadyVehicle& v = turn.vehicle;
-  Json json = {{"radius", turn.radius},
-               {"widest_radius", turn.widest},
-               {"yaw_rate", v.at.speed / turn.radius},
-               {"steering", v.steering},
-               {"crab", v.crab},
-               {"slip", v.slip},
-               {"pull", v.pull},
-               {"into_wheels", v.power.into_wheels}};
+  Json json = {{"radius", turn.radius}, {"widest_radius", turn.widest},
+               {"yaw_rate", turn.rate}, {"steering", v.steering},
+               {"crab", v.crab},        {"slip", v.slip},
+               {"pull", v.pull},        {"into_wheels", v.power.into_wheels}};
   json["wheels"] = Json::array();
   for (std::size_t i = 0; i < answers.wheels.size(); ++i)
     json["wheels"].push_back(turning_wheel_json(answers.wheels[i], v.wheels[i]));
@@ -271,7 +284,7 @@ Report report_on(const TurnAnswers& answers) {
     report.add("Against radius", Figure(report.sheet, "Up to the tightest turn."));
   }
   if (const auto remarks = turn_remarks(answers); !remarks.empty()) report.add(Sentences(remarks));
-  if (answers.why_not) report.no_answer = "does not turn so: " + turn_end_in_words(answers, *answers.why_not);
+  if (answers.why_not) report.no_answer = "does not turn so: " + why_not_in_words(answers);
   report.data = [&answers] { return turns_json(answers); };
   report.csv = [&answers] { return turn_csv(answers); };
   return report;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "bekker_wong/gsl.hpp"
@@ -16,6 +17,7 @@ constexpr double good_residual = 1e-9;    // what counts as one
 constexpr double lifts = 1e-9;            // share of the weight below which a wheel is off the ground
 constexpr double most_braked = -0.95;     // a locked wheel has no speed ratio
 constexpr double scanned_slip = 0.05;
+constexpr double half_turn = std::numbers::pi;
 constexpr double across = 1.5;  // [rad] 86 deg: a wheel that stands farther across its travel is about to roll backward
 
 /// An angle within 40 deg of straight on, from an unknown that has no bounds: two of them stay below 90 deg.
@@ -56,8 +58,26 @@ struct SteadyVehicles::Turning {
   std::vector<double> rims{};      ///< rim speed that is asked of it over that of the drive line, without leads
 };
 
+/// Crab and steering of `vehicle` bring the centre of the turn, in lengths and half tracks from the wheels' middle, and
+/// are none.
+SteadyVehicles::Turning SteadyVehicles::turn_on_the_spot(const VehicleCondition& at, const Modes& m,
+                                                         SteadyVehicle& vehicle) const {
+  const double x = m.x0 + m.length * std::exchange(vehicle.crab, 0.0),
+               y = m.y0 + m.half_track * std::exchange(vehicle.steering, 0.0);
+  Turning all;
+  for (const VehicleWheel& wheel : wheels_) {
+    const double forward = (y - wheel.place.y) / m.half_track, left = (wheel.place.x - x) / m.half_track;
+    all.speeds.push_back(at.speed * std::hypot(forward, left));
+    all.headings.push_back(std::atan2(left, forward));
+    all.steer.push_back(forward < 0.0 ? std::copysign(half_turn, left) : 0.0);
+    all.rims.push_back(1.0);
+  }
+  return all;
+}
+
 /// `vehicle` brings crab and steering beyond those of a turn without side slip, and gets them as they are.
 SteadyVehicles::Turning SteadyVehicles::turn(const VehicleCondition& at, const Modes& m, SteadyVehicle& vehicle) const {
+  if (at.on_the_spot) return turn_on_the_spot(at, m, vehicle);
   const double curvature = at.curvature, x_g = vehicle_.centre_of_gravity.x, y_g = vehicle_.centre_of_gravity.y;
   Turning all;
   double steered_curvature = 0.0;  // of the turn to whose centre the steered wheels stand square
@@ -100,6 +120,8 @@ SteadyVehicles::Turning SteadyVehicles::turn(const VehicleCondition& at, const M
 
 double SteadyVehicles::weight() const { return vehicle_.mass * gravity_of(vehicle_.soil); }
 
+double SteadyVehicles::half_track() const { return modes({.on_the_spot = true}).half_track; }
+
 SteadyVehicles::Modes SteadyVehicles::modes(const VehicleCondition& at) const {
   Modes m;
   const auto stiffness = [&](const VehicleWheel& wheel) { return vehicle_.axles[wheel.axle].stiffness.value_or(1.0); };
@@ -117,7 +139,7 @@ SteadyVehicles::Modes SteadyVehicles::modes(const VehicleCondition& at) const {
   const bool lopsided = vehicle_.centre_of_gravity.y != m.y0 || vehicle_.hitch.at.y != 0.0;
   m.crabs = m.pitches && (at.cross_slope != 0.0 || (m.rolls && lopsided));
   m.steers = m.crabs && std::ranges::any_of(vehicle_.axles, is_steered);
-  if (at.curvature == 0.0) return m;
+  if (at.curvature == 0.0 && !at.on_the_spot) return m;
   m.crabs = m.steers = true;
   const bool all_steered = std::ranges::all_of(vehicle_.axles, is_steered);
   double held = 0.0;
@@ -155,13 +177,13 @@ SteadyWheel SteadyVehicles::free(std::size_t wheel, OperatingCondition at, const
     return steady.result.torque.value - torque(slip);
   };
   const double whole = at.load * wheels_[wheel].scenario.tire.radius;
-  constexpr double small = 1e-14, rounding = 1e-12;  // shares of it: aimed at; what the wheel's own balance leaves
+  constexpr double small = 1e-13, rounding = 1e-12;  // shares of it: aimed at; what the wheel's own balance leaves
   const bool known = found.rise > 0.0;
   double here = known ? found.slip : from, f = missing(here);
   if (steady.lifted) return steady;
   const auto between = [&](const gsl::Sample& a, const gsl::Sample& b) {
     found.rise = (b.f - a.f) / (b.x - a.x);
-    found.slip = gsl::bracketed_root(missing, a, b, 1e-15, 0.1 * small * whole, "the slip at a torque");
+    found.slip = gsl::bracketed_root(missing, a, b, 1e-15, 0.01 * small * whole, "the slip at a torque");
     return steady;
   };
   // By secants from where the last search ended, as long as they come closer.
@@ -306,7 +328,7 @@ SteadyVehicles::Trial SteadyVehicles::trial(const VehicleCondition& at, double s
     if (!v.wheels[i].lifted) sunk.push_back({wheels_[i].place.x, wheels_[i].place.y, r.sinkage.value});
   }
   const double along = std::sin(a), across = std::cos(a) * std::sin(b), up = std::cos(a) * std::cos(b);
-  v.pull = (pull + (load - G) * along) / std::cos(vehicle_.hitch.angle);
+  if (!at.on_the_spot) v.pull = (pull + (load - G) * along) / std::cos(vehicle_.hitch.angle);
   if (!sunk.empty()) {
     const SinkagePlane plane = plane_through(sunk);
     v.nose_down = std::atan(plane.along), v.left_down = std::atan(plane.across);
@@ -324,7 +346,9 @@ SteadyVehicles::Trial SteadyVehicles::trial(const VehicleCondition& at, double s
     const TractionResult& r = wheel.result;
     wheel.normal_load = r.at.load * up;
     const double forward = r.drawbar_pull.value + r.at.load * along, torque = r.torque.value;
-    const double steer = wheel.steer = r.at.yaw - v.crab + turning.headings[i];
+    const double steer = r.at.yaw - v.crab + turning.headings[i];
+    wheel.backward = at.on_the_spot && std::abs(steer) > 0.5 * half_turn;
+    wheel.steer = wheel.backward ? steer - std::copysign(half_turn, steer) : steer;
     const GroundForce soil =
         turned({forward, r.lateral_force.value + r.at.load * across}, r.at.yaw, ForceFrame::travel, ForceFrame::wheel);
     const auto from_wheel = [&](const GroundForce& force) {
@@ -353,7 +377,8 @@ SteadyVehicles::Trial SteadyVehicles::trial(const VehicleCondition& at, double s
   if (m.pitches) trial.rest.push_back(sum.pitch / (G * m.length));
   if (m.rolls) trial.rest.push_back(sum.roll / (G * m.width));
   if (m.crabs) trial.rest.push_back((left + (load - G) * across - centrifugal) / G);
-  if (m.steers) trial.rest.push_back(sum.yaw / (G * m.length));
+  if (m.steers) trial.rest.push_back(at.on_the_spot ? pull / G : sum.yaw / (G * m.length));
+  if (at.on_the_spot) v.pull = sum.yaw / m.half_track;
   return trial;
 }
 
@@ -374,7 +399,7 @@ SteadyVehicle SteadyVehicles::at_slip(const VehicleCondition& at, double slip) c
       last_x.assign(x.begin(), x.end());
       std::ranges::copy(last.rest, f.begin());
     } catch (const VehicleGaveOut&) {
-      if (at.curvature == 0.0) throw;
+      if (at.curvature == 0.0 && !at.on_the_spot) throw;
       std::ranges::fill(f, far_off);
     }
   };

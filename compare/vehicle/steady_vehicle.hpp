@@ -89,6 +89,7 @@ struct SteadyWheel {
   double power_in = 0.0;           ///< M w [W]
   double slip_loss = 0.0;          ///< (M/r) (r w - v) [W], v: its speed in its own plane
   double soil_loss = 0.0;          ///< (M/r) v less what pushes the vehicle along its travel, times its speed [W]
+  bool backward = false;           ///< rolls backward; its result is that of the wheel turned round
   bool lifted = false;             ///< off the ground: no forces
   bool at_largest_torque = false;  ///< its motor gives no more, or turns no faster
 };
@@ -103,10 +104,11 @@ struct VehiclePower {
 };
 
 struct SteadyVehicle {
-  VehicleCondition at{};    ///< its pull: what is asked, where that was asked
-  double slip = 0.0;        ///< of the drive line: by its mean rim speed
-  double pull = 0.0;        ///< left at the hitch, along travel [N]
-  double crab = 0.0;        ///< by which the vehicle points to the left of its travel [rad]
+  VehicleCondition at{};  ///< its pull: what is asked, where that was asked
+  double slip = 0.0;      ///< of the drive line: by its mean rim speed
+  double pull = 0.0;  ///< left at the hitch, along travel [N]; on the spot what is left to turn it, at the mean half
+                      ///< track
+  double crab = 0.0;  ///< by which the vehicle points to the left of its travel [rad]
   double steering = 0.0;    ///< of the steered axles, to the left of the vehicle [rad]; in a turn of the middle of the
                             ///< one farthest from the axles that are not
   double yaw_moment = 0.0;  ///< that nothing balances: a driver's hand must [N m], to the left positive
@@ -129,8 +131,10 @@ struct SteadyVehicle {
 /// (Wong, Theory of Ground Vehicles, ch. 3). On a cross slope the vehicle crabs, and steered axles turn, until nothing
 /// is left across its travel. In a turn each wheel travels as its place on the body does, steered wheels stand square
 /// to one centre (Ackermann), where no axle is steered the sides' rim speeds differ, and the balance across holds the
-/// centrifugal force too. Wheels in one axle alone keep their pitch as in a rig, and those in one track their roll.
-/// Solved by gsl::system_root for each slip of the drive line.
+/// centrifugal force too. On the spot the sides turn against each other about the centre at which nothing is left along
+/// and across the vehicle; wheels that roll backward are turned round, and the pull is what is left to turn it, at the
+/// mean half track. Wheels in one axle alone keep their pitch as in a rig, and those in one track their roll. Solved by
+/// gsl::system_root for each slip of the drive line.
 class SteadyVehicles {
  public:
   /// What is referred to must outlive this. `model` answers for one wheel.
@@ -152,6 +156,8 @@ class SteadyVehicles {
 
   /// Weight on the soil's gravity [N].
   double weight() const;
+  /// Mean distance of the wheels from their middle line [m].
+  double half_track() const;
 
  private:
   struct Trial;
@@ -168,6 +174,7 @@ class SteadyVehicles {
     double rise = 0.0;  ///< of what is missing in its torque, per slip [N m]; 0: none was found yet
   };
   Turning turn(const VehicleCondition& at, const Modes& modes, SteadyVehicle& vehicle) const;
+  Turning turn_on_the_spot(const VehicleCondition& at, const Modes& modes, SteadyVehicle& vehicle) const;
   Modes modes(const VehicleCondition& at) const;
   /// The largest slip that is looked at. At 100 % a drive line turns without end: across an open axle no wheel could
   /// then turn slower than the other.

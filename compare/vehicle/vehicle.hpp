@@ -73,6 +73,8 @@ struct VehicleCondition {
   double speed = 1.0;        ///< of travel [m/s], > 0
   double pull = 0.0;         ///< of the drawbar [N]: what the vehicle pulls behind it
   double curvature = 0.0;    ///< of the path of its centre of gravity [1/m], to the left positive; of no file
+  bool on_the_spot = false;  ///< it turns to the left by its sides, one against the other: `speed` is that of its
+                             ///< wheels along their planes, of no file
 };
 
 /// A stop on the way, and the start from it.

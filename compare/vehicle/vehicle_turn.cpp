@@ -34,6 +34,12 @@ double steer_of_axle(const SteadyVehicle& vehicle, const std::vector<VehicleWhee
   return std::atan(count / cotangents);
 }
 
+double fastest_wheel(const SteadyVehicle& vehicle) {
+  double fastest = 0.0;
+  for (const SteadyWheel& wheel : vehicle.wheels) fastest = std::max(fastest, wheel.result.at.speed);
+  return fastest;
+}
+
 /// The turns of one vehicle to one side.
 class Turns {
  public:
@@ -50,7 +56,25 @@ class Turns {
   std::optional<VehicleTurn> of(double curvature, const std::optional<double>& stop = {}) {
     VehicleCondition at = question_.condition;
     at.curvature = curvature;
-    VehicleTurn turn{1.0 / curvature, 0.0, {}};
+    std::optional<VehicleTurn> turn = in(at, stop);
+    if (turn) turn->radius = 1.0 / curvature, turn->rate = at.speed * curvature;
+    if (turn) turn->widest = fastest_wheel(turn->vehicle) / std::abs(turn->rate);
+    return turn;
+  }
+
+  /// On the spot, to the left.
+  std::optional<VehicleTurn> on_the_spot() {
+    VehicleCondition at = question_.condition;
+    at.on_the_spot = true;
+    std::optional<VehicleTurn> turn = in(at, {});
+    if (turn) turn->rate = at.speed / vehicles_.half_track();
+    if (turn) turn->widest = fastest_wheel(turn->vehicle) / turn->rate;
+    return turn;
+  }
+
+  /// In a condition that turns it.
+  std::optional<VehicleTurn> in(const VehicleCondition& at, const std::optional<double>& stop) {
+    VehicleTurn turn;
     try {
       turn.vehicle = vehicles_.pulling(at);
     } catch (const VehicleGaveOut& error) {
@@ -65,9 +89,6 @@ class Turns {
       end = {TurnLimit::motors, *limit, {}};
       return {};
     }
-    double fastest = 0.0;
-    for (const SteadyWheel& wheel : turn.vehicle.wheels) fastest = std::max(fastest, wheel.result.at.speed);
-    turn.widest = fastest / at.speed * std::abs(turn.radius);
     return turn;
   }
 
@@ -147,7 +168,13 @@ std::size_t slips_most(const SteadyVehicle& vehicle) {
 TurnAnswers turn_of(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model,
                     const TurnAsked& asked) {
   require_turning(question);
-  if (asked.radius && *asked.radius == 0.0) throw InputError("a turn has a radius other than 0");
+  const bool on_the_spot = asked.radius == 0.0;
+  if (on_the_spot && std::ranges::any_of(question.axles, is_steered))
+    throw InputError(
+        "a steered axle does not turn it on the spot\n  hint: 'steered: no' for all axles, which turns it by "
+        "its sides; or a radius other than 0");
+  if (on_the_spot && question.condition.pull != 0.0)
+    throw InputError("on the spot it pulls nothing\n  hint: --pull 0N");
   if (asked.steer && std::ranges::none_of(question.axles, is_steered))
     throw InputError("no axle is steered: ask for a radius");
   const double side = asked.radius.value_or(asked.steer.value_or(1.0)) < 0.0 ? -1.0 : 1.0;
@@ -156,7 +183,7 @@ TurnAnswers turn_of(const VehicleCase& question, const std::vector<VehicleWheel>
   answers.tightest = turns.tightest(side);
   answers.end = turns.end, answers.ever_tighter = std::move(turns.passed);
   if (asked.radius) {
-    answers.turn = turns.of(1.0 / *asked.radius);
+    answers.turn = on_the_spot ? turns.on_the_spot() : turns.of(1.0 / *asked.radius);
     if (!answers.turn) answers.why_not = turns.end;
   } else if (asked.steer) {
     answers.turn = turns.tightest(side, std::abs(*asked.steer));

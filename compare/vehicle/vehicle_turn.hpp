@@ -15,7 +15,7 @@ namespace soilbin::compare {
 
 /// What is asked of a turn; one of the two, or neither: the tightest one.
 struct TurnAsked {
-  std::optional<double> radius{};  ///< of the path of the centre of gravity [m], to the left positive
+  std::optional<double> radius{};  ///< of the path of the centre of gravity [m], to the left positive; 0: on the spot
   std::optional<double> steer{};   ///< of the middle of the steered axle with the longest lever [rad], as that
 };
 
@@ -36,6 +36,7 @@ struct TurnEnd {
 struct VehicleTurn {
   double radius = 0.0;  ///< of the path of the centre of gravity [m], to the left positive
   double widest = 0.0;  ///< of the path of the wheel farthest out [m], > 0
+  double rate = 0.0;    ///< of its turning [rad/s], to the left positive
   SteadyVehicle vehicle{};
 };
 
@@ -56,7 +57,7 @@ struct TurnAnswers {
 std::size_t slips_most(const SteadyVehicle& vehicle);
 
 /// Throws InputError where neither an axle is steered nor the drive line turns the sides unlike, for one axle alone,
-/// and on a slope, where no turn is steady.
+/// and on a slope, where no turn is steady; on the spot for a steered axle, and where something is pulled.
 TurnAnswers turn_of(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model,
                     const TurnAsked& asked = {});
 

@@ -177,6 +177,18 @@ TEST(VehicleCommand, TellsTheTightestTurnAndWhatEndsIt) {
   EXPECT_THAT(tight.err, HasSubstr("does not turn so: "));
 }
 
+TEST(VehicleCommand, TurnsOnTheSpotByItsSides) {
+  const Scratch scratch;
+  const std::string file = "'" + scratch.write("skid.yaml", "drive_line: sides\n" + climbing_rover).string() + "'";
+  const Outcome run = soilbin("vehicle " + file + " --turn --radius 0m");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out,
+              AllOf(HasSubstr("It turns: On the spot, "), HasSubstr(" J a full turn."), HasSubstr("backward")));
+  const auto turn = soilbin("vehicle " + file + " --turn --radius 0m --json").json().at("turn");
+  EXPECT_EQ(turn.at("radius").get<double>(), 0.0);
+  EXPECT_TRUE(turn.at("wheels").at(0).at("backward").get<bool>());
+}
+
 TEST(VehicleCommand, RefusesATurnThatIsNone) {
   const auto told = [](const std::string& flags) {
     const Outcome run = soilbin("vehicle truck " + flags);
@@ -186,7 +198,7 @@ TEST(VehicleCommand, RefusesATurnThatIsNone) {
   EXPECT_THAT(told("--turn --slope 5deg"), HasSubstr("on a slope no turn is steady"));
   EXPECT_THAT(told("--radius 5m"), HasSubstr("--turn"));
   EXPECT_THAT(told("--turn --radius 5deg"), HasSubstr("--radius"));
-  EXPECT_THAT(told("--turn --radius 0m"), HasSubstr("a radius other than 0"));
+  EXPECT_THAT(told("--turn --radius 0m"), HasSubstr("a steered axle does not turn it on the spot"));
   EXPECT_THAT(told("--turn --drive"), HasSubstr("--turn"));
 }
 

@@ -2,6 +2,7 @@
 // NASA's points of a rover on slopes.
 #include "compare/vehicle/vehicle_measured.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -119,13 +120,13 @@ TEST(SlowMeasuredVehicle, NasasRoverOnSlopesIsMetToFourDegrees) {
   const MeasuredAnswers answers = beside_measured(rover, wheels_of(rover), rolling_wheel,
                                                   read_measured_vehicle(read_source_text(file, largest_csv)));
   ASSERT_EQ(answers.answered, 6u);
-  EXPECT_NEAR(answers.rms / degree, 3.9, 0.05);
-  for (std::size_t i = 0; i < 6; ++i) {
-    const double off = answers.difference(i).value() / degree;
-    if (answers.measured.states[i].slip > 0.4) EXPECT_LT(std::abs(off), 3.1);
+  EXPECT_NEAR(answers.rms / degree, 3.82, 0.01);
+  for (const std::size_t large_slip : {3u, 4u, 5u}) {
+    EXPECT_GT(answers.measured.states[large_slip].slip, 0.4);
+    EXPECT_LT(std::abs(answers.difference(large_slip).value()) / degree, 3.1);
   }
   for (const std::size_t small_slip : {1u, 2u}) EXPECT_NEAR(answers.difference(small_slip).value() / degree, -6, 0.6);
-  EXPECT_THAT(text_of(report_on(answers)), HasSubstr("How far off: 3.9 deg (root mean square over 6 points)"));
+  EXPECT_THAT(text_of(report_on(answers)), HasSubstr("How far off: 3.8 deg (root mean square over 6 points)"));
 }
 
 TEST(MeasuredVehicle, NasasWheelIsReadAsItIs) {

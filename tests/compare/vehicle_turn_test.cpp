@@ -172,6 +172,93 @@ TEST(VehicleTurn, BySidesTheOuterWheelsTurnAsMuchFasterAsTheAxlesResist) {
   EXPECT_NEAR((right - left) / (right + left), unlike, 0.02 * unlike);
 }
 
+/// By its sides, its weight in the middle: 0.6 m from its axles, 0.4 m from its wheels, low enough to load all alike.
+VehicleCase rover_in_balance() {
+  VehicleCase vehicle = rover_by_sides();
+  vehicle.centre_of_gravity = {0.6, 0.0, 0.0}, vehicle.hitch.at = {0.6, 0.0, 0.0};
+  return vehicle;
+}
+
+VehicleTurn on_the_spot(const VehicleCase& vehicle, const Model& model) {
+  return turn_of(vehicle, wheels_of(vehicle), model, {.radius = 0.0, .steer = {}}).turn.value();
+}
+
+TEST(VehicleTurn, OnTheSpotTheWheelsTurnItAgainstWhatHoldsThemAcross) {
+  // Each wheel travels at atan(0.6/0.4) to its plane: k times that of its load across it, at 0.6 m, against 2 s of it
+  // along it, at 0.4 m.
+  const double k = 0.05, yaw = std::atan(0.6 / 0.4), slip = k * yaw * 0.6 / (2.0 * 0.4);
+  const VehicleTurn turn = on_the_spot(rover_in_balance(), GroundThatHolds(k));
+  EXPECT_EQ(turn.radius, 0.0);
+  EXPECT_NEAR(turn.widest, std::hypot(0.6, 0.4), 1e-9);
+  EXPECT_NEAR(turn.rate, 0.1 / 0.4, 1e-9);
+  EXPECT_NEAR(turn.vehicle.slip, slip, 1e-9);
+  for (const SteadyWheel& wheel : turn.vehicle.wheels) {
+    EXPECT_NEAR(std::abs(wheel.result.at.yaw), yaw, 1e-9);
+    EXPECT_NEAR(wheel.steer, 0.0, 1e-9);
+    EXPECT_NEAR(wheel.result.at.slip, slip, 1e-9);
+  }
+  EXPECT_TRUE(turn.vehicle.wheels[0].backward) << "to the left, the left side backward";
+  EXPECT_FALSE(turn.vehicle.wheels[1].backward);
+}
+
+TEST(VehicleTurn, OnTheSpotEachWheelIsTheWheelAloneAcrossItsTravel) {
+  // Of four wheels alike one says it all: its force along its plane at 0.4 m is that across it at 0.6 m.
+  const VehicleCase vehicle = rover_in_balance();
+  const VehicleTurn turn = on_the_spot(vehicle, soft_soil);
+  const auto wheels = wheels_of(vehicle);
+  const double load = vehicle.mass * gravity_of(vehicle.soil) / 4;
+  OperatingCondition at{.load = load, .slip = turn.vehicle.slip, .speed = 0.1 * std::hypot(0.6, 0.4) / 0.4};
+  at.yaw = -std::atan(0.6 / 0.4);
+  const TractionResult alone = soft_soil.evaluate(wheels[1].scenario, at);
+  const GroundForce own =
+      turned({alone.drawbar_pull.value, alone.lateral_force.value}, at.yaw, ForceFrame::travel, ForceFrame::wheel);
+  EXPECT_NEAR(own.forward * 0.4, own.left * -0.6, 2e-3 * load) << "but for what torques and tilt shift of the loads";
+  EXPECT_NEAR(turn.vehicle.wheels[1].result.torque.value, alone.torque.value, 0.02 * alone.torque.value);
+}
+
+TEST(VehicleTurn, OnTheSpotItsHalvesAreOneAnotherTurnedRound) {
+  const VehicleTurn turn = on_the_spot(rover_in_balance(), soft_soil);
+  const auto& wheels = turn.vehicle.wheels;
+  for (const auto& [one, other] : {std::pair{0u, 3u}, {1u, 2u}}) {
+    EXPECT_NEAR(wheels[one].normal_load, wheels[other].normal_load, 1e-5);
+    EXPECT_NEAR(wheels[one].result.torque.value, wheels[other].result.torque.value, 1e-5);
+    EXPECT_NEAR(wheels[one].result.lateral_force.value, wheels[other].result.lateral_force.value, 1e-5);
+  }
+  const VehiclePower& power = turn.vehicle.power;
+  EXPECT_GT(power.into_wheels, 0.0);
+  EXPECT_NEAR(power.into_wheels, power.slip_loss + power.soil_loss, 1e-4 * power.into_wheels);
+}
+
+TEST(VehicleTurn, OnTheSpotForcesAndMomentsCloseWithItsWeightBehindTheMiddle) {
+  const VehicleCase vehicle = rover_by_sides();
+  const auto wheels = wheels_of(vehicle);
+  const VehicleTurn turn = on_the_spot(vehicle, soft_soil);
+  const double G = vehicle.mass * gravity_of(vehicle.soil);
+  double forward = 0.0, left = 0.0, moment = 0.0;
+  for (std::size_t i = 0; i < wheels.size(); ++i) {
+    const TractionResult& r = turn.vehicle.wheels[i].result;
+    const GroundForce own =
+        turned({r.drawbar_pull.value, r.lateral_force.value}, r.at.yaw, ForceFrame::travel, ForceFrame::wheel);
+    const double way = turn.vehicle.wheels[i].backward ? -1.0 : 1.0;
+    forward += way * own.forward, left += way * own.left;
+    moment += way * (wheels[i].place.x * own.left - wheels[i].place.y * own.forward);
+  }
+  EXPECT_NEAR(forward, 0.0, 1e-6 * G);
+  EXPECT_NEAR(left, 0.0, 1e-6 * G);
+  EXPECT_NEAR(moment, 0.0, 1e-3 * G) << "but for what the tilt by sinkage adds";
+}
+
+TEST(VehicleTurn, OnTheSpotItStaysWhereTheSoilHoldsItsWheelsAcrossMoreThanTheyDrive) {
+  VehicleCase vehicle = rover_in_balance();  // k at atan(0.6/0.4) and 0.6 m beats 2 at 0.4 m
+  const TurnAnswers held = turn_of(vehicle, wheels_of(vehicle), GroundThatHolds(2.0), {.radius = 0.0, .steer = {}});
+  ASSERT_FALSE(held.turn);
+  EXPECT_EQ(held.why_not->limit, TurnLimit::balance);
+  EXPECT_EQ(held.why_not->failure.why, GaveOut::pull);
+  vehicle.power = 0.5 * on_the_spot(vehicle, soft_soil).vehicle.power.into_wheels;
+  const TurnAnswers weak = turn_of(vehicle, wheels_of(vehicle), soft_soil, {.radius = 0.0, .steer = {}});
+  EXPECT_EQ(weak.why_not->motors, TravelLimit::power);
+}
+
 TEST(VehicleTurn, TheTightestEndsAtTheSteeringsStop) {
   VehicleCase vehicle = steered_rover();
   vehicle.axles[0].largest_steer = 0.5;
@@ -214,6 +301,11 @@ TEST(VehicleTurn, SaysWhatItNeedsToTurn) {
   VehicleCase uphill = steered_rover();
   uphill.condition.slope = 0.1;
   EXPECT_THAT(told(uphill), HasSubstr("level ground"));
+  EXPECT_THAT(soilbin::test::error_of([&] {
+                const VehicleCase steered = steered_rover();
+                turn_of(steered, wheels_of(steered), soft_soil, {.radius = 0.0, .steer = {}});
+              }),
+              HasSubstr("a steered axle does not turn it on the spot"));
   VehicleCase one = steered_rover();
   one.axles.pop_back();
   EXPECT_THAT(told(one), HasSubstr("one axle alone"));

@@ -976,6 +976,13 @@ class Vehicles(unittest.TestCase):
         with self.assertRaisesRegex(soilbin.InputError, "not both"):
             soilbin.turn_vehicle(self.rover(), radius=3.0, steer=0.2)
 
+    def test_beside_measurements_is_the_commands(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "climbs.csv"
+            file.write_text("slip_percent,slope_deg\n30,10\n")
+            known = command("vehicle", "rover", "--measured", str(file))
+            self.assertEqual(soilbin.vehicle_beside_measured(self.rover(), file)["points"], known["points"])
+
     def test_a_motor_says_how_fast_it_goes(self):
         rover = self.rover()
         rover.drive_line = soilbin.DriveLine.locked

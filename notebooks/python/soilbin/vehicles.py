@@ -41,7 +41,7 @@ def vehicle_on_soil(vehicle: Vehicle, *, map_samples: int = 0, rigid: bool = Fal
 def turn_vehicle(vehicle: Vehicle, *, radius: float | None = None, steer: float | None = None, rigid: bool = False,
                  no_lugs: bool = False) -> dict[str, Any]:
     """The steady turn of a radius [m] or of a steering angle [rad] on level ground, to the left positive; without both
-    the tightest one, and what ends it.
+    the tightest one, and what ends it. radius 0: on the spot, by its sides.
 
     Gives the document soilbin-vehicle-turn/1, as `soilbin vehicle --turn --json` does; SI and radians. Where there is no
     such turn, `turn` is None and `why_not` says why. Raises InputError for a slope and for a vehicle that cannot turn.
