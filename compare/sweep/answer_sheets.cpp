@@ -160,7 +160,7 @@ Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, 
 Sheet plot_of_study(const Case& question, const std::vector<ModelAnswers>& study) {
   const ConditionView* over = curves_run_over(question.study.conditions);
   const ConditionView& abscissa = over ? *over : slip_view();
-  return study_sheet(question, smoothed_for_plot(question, study, abscissa), Panels::telling, abscissa);
+  return study_sheet(question, smoothed_for_plot(question, study, abscissa), Panels::nonzero, abscissa);
 }
 
 Sheet budget_sheet(const std::string& title, const std::vector<LabelledAnswers>& curves) {

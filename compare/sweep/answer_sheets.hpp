@@ -15,7 +15,7 @@ struct LabelledAnswers {
 };
 
 /// Whether a panel stands there whose values are all zero.
-enum class Panels { telling, all };
+enum class Panels { nonzero, all };
 
 /// The answers as a plot for people shows them: the models called in words, and the analytic one, which costs little,
 /// along many places of each curve.
@@ -26,7 +26,7 @@ std::vector<ModelAnswers> smoothed_for_plot(const Case& question, std::vector<Mo
 /// else curves are to run over: a colour for each combination of the other conditions, a dash for each model; with up
 /// to five curves also error bands, else those of the first model where it has up to five. Every model's answers are of
 /// the question's curves, at its slips or others.
-Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, Panels panels = Panels::telling,
+Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, Panels panels = Panels::nonzero,
                   const ConditionView& abscissa = slip_view());
 
 /// The two together, over what the question's curves run over (curves_run_over; slip where there is none).
