@@ -104,6 +104,14 @@ Unit unit_as_written(std::string_view text, std::string_view rest, const Unit& e
   }
 }
 
+/// ", which weighs 19.61 kN on Earth" of a mass where a force was expected.
+std::string weight_of(const Decimal& decimal, const Unit& written, const Unit& expected) {
+  const bool of_mass = same_dimension(written.dimension, parse_unit("kg").dimension) &&
+                       same_dimension(expected.dimension, parse_unit("N").dimension);
+  const std::optional<double> mass = of_mass ? in_base_units(decimal, written) : std::nullopt;
+  return mass ? fmt::format(", which weighs {:.4g} kN on Earth", *mass * standard_gravity / 1e3) : "";
+}
+
 std::string wrong_dimension(const Unit& written) {
   if (written.text == "-") return "it has no unit";
   if (written.text == "lb") return "'lb' is a mass; a pound-force is written 'lbf'";
@@ -177,7 +185,7 @@ Quantity parse_quantity(std::string_view text, const Measure& measure, std::opti
   Quantity found;
   found.unit = unit_as_written(whole, trim(whole.substr(decimal.length)), expected, n);
   if (!same_dimension(found.unit.dimension, expected.dimension, n))
-    refuse(expected, whole, wrong_dimension(found.unit));
+    refuse(expected, whole, wrong_dimension(found.unit) + weight_of(decimal, found.unit, expected));
   const std::optional<double> value = in_base_units(decimal, found.unit);
   if (!value) refuse(expected, whole, "the number is too large or too small");
   if (!measure.range.holds(*value))

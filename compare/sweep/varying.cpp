@@ -37,7 +37,8 @@ const std::vector<ConditionAxis>& axes() {
   static const std::vector<ConditionAxis> all = {
       {slip_view(), [](double x) { return fmt::format("slip {:.4g} %", 100 * x); }, 0.0, 0.02},
       {condition_view("load"), [](double x) { return newtons(x); }, 0.25, 0.0},
-      {condition_view("longitudinal_incline"), [](double x) { return angle("uphill", x); }, 0.0, 2 * degree},
+      {condition_view("longitudinal_incline"),
+       [](double x) { return x < 0 ? angle("downhill", -x) : angle("uphill", x); }, 0.0, 2 * degree},
       {condition_view("transverse_incline"), [](double x) { return angle("cross slope", x); }, 0.0, 2 * degree},
       {condition_view("yaw"), [](double x) { return angle("yaw", x); }, 0.0, 2 * degree},
       {condition_view("pass"), [](double x) { return fmt::format("pass {:g}", x); }, 0.0, 0.5},

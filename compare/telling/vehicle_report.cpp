@@ -29,7 +29,9 @@ std::string condition_in_words(const VehicleCondition& at) {
 
 /// "26.6 ± 4.0 deg", without an error where none is known; "none" where it moves on no slope that was looked at.
 std::string angle_of(const VehicleLimit& limit) {
-  return limit.angle ? number({limit.angle->value, told_error(limit.angle->std_error)}, 1 / degree) + " deg" : "none";
+  return limit.angle    ? number({limit.angle->value, told_error(limit.angle->std_error)}, 1 / degree) + " deg"
+         : limit.on_all ? "any"
+                        : "none";
 }
 
 std::string too_fast_in_words(const VehicleAnswers& answers) {
@@ -145,7 +147,9 @@ Table limits_of_vehicle(const VehicleAnswers& answers) {
   table.text_columns = {true, false, false, true};
   const auto add = [&](const char* way, const VehicleLimit& limit) {
     table.add({way, limit_in_words(limit), limit.angle ? number(100 * limit.slip) : "-",
-               limit.angle ? failure_in_words(answers.wheels, limit.beyond) : "beyond what was looked at, or none"});
+               limit.angle    ? failure_in_words(answers.wheels, limit.beyond)
+               : limit.on_all ? "nothing up to 69 deg"
+                              : "-"});
   };
   add("up", answers.up);
   add("down", answers.down);

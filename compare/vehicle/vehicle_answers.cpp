@@ -208,7 +208,10 @@ VehicleLimit steepest(const VehicleCase& question, const std::vector<VehicleWhee
     else
       high = middle, at_high = f;
   }
-  if (high == steepest_asked) return limit;
+  if (high == steepest_asked) {
+    limit.on_all = true;
+    return limit;
+  }
   constexpr double beside = 0.05 * degree;
   if (!travels(low - beside)) {  // at less slip than that of its largest pull a wheel gives out
     constexpr double back = 0.5 * degree;

@@ -78,8 +78,9 @@ struct SteadyErrors {
 
 /// The steepest slope one way.
 struct VehicleLimit {
-  std::optional<Estimate> angle{};  ///< [rad]; none: it does not move so on any slope that is looked at. Its error is
-                                    ///< not a number where it is not the pull that ends
+  std::optional<Estimate> angle{};  ///< [rad]; none: it does not move so on any slope that is looked at, or on all of
+                                    ///< them. Its error is not a number where it is not the pull that ends
+  bool on_all = false;              ///< that are looked at, to 69 deg
   double slip = 0.0;                ///< of the drive line there
   VehicleFailure beyond{};          ///< what a steeper slope ends with
 };

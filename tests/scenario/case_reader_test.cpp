@@ -149,7 +149,7 @@ TEST(CaseReader, UnitsAreDemanded) {
               StartsWith("case.yaml:4:11: expected a length, such as '11 mm', not '0.25': it has no unit"));
   EXPECT_THAT(refused(with("100 mm", "100 kPa")), StartsWith("case.yaml:5:10: expected a length"));
   EXPECT_THAT(refused(with("0.99 kN/m^(n+1)", "0.99 kN/m^(n+2)")), HasSubstr("expected a cohesive modulus"));
-  EXPECT_THAT(refused(with("load: 2 kN", "load: 200 kg")), HasSubstr("'kg' is a mass"));
+  EXPECT_THAT(refused(with("load: 2 kN", "load: 200 kg")), HasSubstr("'kg' is a mass, which weighs 1.961 kN on Earth"));
   EXPECT_THAT(refused(with("angle: 20 deg", "angle: 20")), HasSubstr("expected an angle"));
 }
 
