@@ -12,6 +12,7 @@
 #include "compare/vehicle/vehicle_measured.hpp"
 #include "notebooks/bindings/fields.hpp"
 #include "notebooks/bindings/scenario.hpp"
+#include "scenario/csv.hpp"
 
 namespace soilbin::python {
 namespace {
