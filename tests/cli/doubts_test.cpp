@@ -1,6 +1,8 @@
 // The one list of doubts, as each command tells it: on standard error, in JSON and on pages.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "cli/command.hpp"
 
 namespace soilbin::cli::test {
@@ -55,6 +57,32 @@ TEST(DoubtsOfCommands, AreTheSameInAllOfThem) {
   for (const auto& warning : document["warnings"])
     EXPECT_THAT(checked.out, HasSubstr("warning: " + warning.get<std::string>() + "\n"));
   EXPECT_THAT(checked.out, HasSubstr("1 model at 1 condition"));
+}
+
+TEST(DoubtsOfCommands, KnowWhatAnAnswerDoesNotTell) {
+  const struct {
+    const char* command;
+    const char* kind;
+    bool doubted;
+  } cases[] = {
+      {"estimate --tire 600-65R28 --soil lete-sand --slip 20% --load 30kN", "heavy_and_lugged", true},
+      {"estimate --tire 600-65R28 --soil lete-sand --slip 20% --load 30kN --no-lugs --rigid", "heavy_and_smooth", true},
+      {"estimate --tire 600-65R28 --soil lete-sand --slip 20% --load 5kN --no-lugs --rigid", "heavy_and_smooth", false},
+      {"estimate --tire hmmwv --soil dry-sand --slip 20% --load 6kN --effect multipass --pass 2", "sinkage_in_rut",
+       true},
+      {"estimate --tire hmmwv --soil dry-sand --slip 20% --load 6kN --effect multipass --pass 1", "sinkage_in_rut",
+       false},
+      {"estimate --tire hmmwv --soil dry-sand --slip 20% --load 6kN --effect multipass:rut_power --pass 2",
+       "sinkage_in_rut", false},
+      {"vehicle tractor", "slips_little", true},
+      {"vehicle tractor --slope 10deg --pull 20kN", "slips_little", false},
+      {"vehicle rover --soil dry-sand --gravity 1.62m/s^2", "soil_weight_ignored", false},
+  };
+  for (const auto& [command, kind, doubted] : cases) {
+    const Outcome outcome = soilbin(std::string(command) + " --json");
+    ASSERT_EQ(outcome.status, 0) << command << outcome.err;
+    EXPECT_EQ(std::ranges::count(kinds_of(outcome.json()), kind) > 0, doubted) << command;
+  }
 }
 
 // Before core-hours are spent: who only plans them hears of the grains too.

@@ -323,7 +323,7 @@ TEST(Estimate, WhatIsGivenAndChangesNothingIsTold) {
     EXPECT_THAT(r.err, AllOf(StartsWith("warning: "), HasSubstr(c.told))) << c.more;
     EXPECT_EQ(r.json()["rows"][0]["budget"].dump(), plain) << c.more << " changes no digit";
   }
-  for (const char* heard : {"--lug-height 10mm --effect lug_thrust", "--pass 3 --effect multipass"})
+  for (const char* heard : {"--lug-height 10mm --effect lug_thrust", "--pass 3 --effect multipass:rut_power"})
     EXPECT_EQ(soilbin(base + heard).err, "") << heard;
 }
 
