@@ -54,7 +54,7 @@ std::vector<PlatePoint> points_of(std::span<const MeasuredPlate> tests, std::opt
 }
 
 std::vector<Target> targets_of(std::span<const MeasuredPlate> tests, std::span<const PlatePoint> points) {
-  const bool one_size = points.front().diameter == points.back().diameter;
+  const bool one_size = points.empty() || points.front().diameter == points.back().diameter;
   std::vector<Target> targets;
   for (const PlatePoint& point : points) {
     std::vector<Estimate> pressures;

@@ -38,7 +38,7 @@ dem::PlateSettings pressed_as(std::span<const PlatePoint> points, const Granular
 /// The pressure at a point [Pa]: mean over the packings of its plate, and its error, 0 of one.
 Estimate simulated(const PlatePoint& point, const std::vector<dem::PlateRun>& runs);
 
-/// Each target beside the runs.
+/// Each target beside the runs; without tests none.
 MeasuredBeside<MeasuredPlate> beside_measured(std::vector<MeasuredPlate> tests, std::span<const PlatePoint> points,
                                               const std::vector<dem::PlateRun>& runs);
 

@@ -53,6 +53,11 @@ TEST(PlateCurves, EachSizeGoesAsDeepAsItsShallowestTest) {
   EXPECT_THAT(points_of(tests, 0.01)[3].sinkage, DoubleNear(0.01, 1e-12));
 }
 
+TEST(PlateCurves, WithoutTestsNothingIsAsked) {
+  EXPECT_TRUE(points_of({}).empty());
+  EXPECT_TRUE(beside_measured({}, {}, {}).features.empty());
+}
+
 // Two tests, 0.5 and 1.5 of their mean: the error is that of their mean, half of it, and not the 10 % taken elsewhere.
 TEST(PlateCurves, ErrorsCoverWhatTestsDiffer) {
   const std::vector tests{straight(0.15, 0.08, 0.5), straight(0.15, 0.08, 1.5)};
