@@ -1,22 +1,19 @@
 #include "compare/experiments/virtual_bevameter.hpp"
 
+#include "compare/experiments/plate_curves.hpp"
 #include "dem/element_tests/tool_bed.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-/// A plate's curve from where it seats itself, as in the field: the surface is rough, and its mean as seen from above
-/// lies below the tops that the plate comes to rest on.
+/// A plate's curve from a tenth of a grain below its seat on.
 bekker_wong::PlateCurve curve_of(const dem::PlateRun& run, double grain) {
-  constexpr double seated = 1e3;  // [Pa]
   bekker_wong::PlateCurve out{.radius = run.diameter / 2, .pressure = {}, .sinkage = {}};
-  double contact = 0;
-  bool found = false;
+  const double seat = seat_of(run);
   for (const dem::PlateSample& sample : run.curve) {
-    if (!found && sample.pressure > seated) contact = sample.sinkage, found = true;
-    if (!found || sample.sinkage < contact + 0.1 * grain || sample.pressure <= 0) continue;
+    if (sample.sinkage < seat + 0.1 * grain || sample.pressure <= 0) continue;
     out.pressure.push_back(sample.pressure);
-    out.sinkage.push_back(sample.sinkage - contact);
+    out.sinkage.push_back(sample.sinkage - seat);
   }
   return out;
 }

@@ -377,8 +377,10 @@ Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil
                    {"speed", run.speed},
                    {"sinkage", column(run.curve, &Sample::sinkage)},
                    {"pressure", column(run.curve, &Sample::pressure)}});
-    add_line(plot, label_of(fmt::format("{} mm", number(run.diameter * 1e3)), run.packing, several), run.curve,
-             times(&Sample::sinkage, 1e3), [](const Sample& s) { return s.pressure / 1e3; });
+    const double from = beside.tests.empty() ? 0.0 : seat_of(run);
+    const auto sinkage = [=](const Sample& s) { return (s.sinkage - from) * 1e3; };
+    add_line(plot, label_of(fmt::format("{} mm", number(run.diameter * 1e3)), run.packing, several), run.curve, sinkage,
+             [](const Sample& s) { return s.pressure / 1e3; });
   }
   std::vector<std::string> sentences = told_means(means_of(runs, &dem::PlateRun::diameter, pressure_at_end),
                                                   "At the deepest, plate of", "mm", 1e3, "diameter", "pressure", means);
@@ -388,7 +390,11 @@ Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil
     add_measured(plot, test.test + ", measured", test.curve.sinkage, 1e3, test.curve.pressure, 1e-3);
   Report report =
       report_of("plate", soil, std::move(table), std::move(sentences), values, {"Plate sinkage", {std::move(plot)}});
-  if (!features.rows.empty()) report.add("Beside measured tests", std::move(features));
+  if (features.rows.empty()) return report;
+  report.add("Beside measured tests", std::move(features));
+  report.add(Sentences(std::vector<std::string>{
+      "There and in the figure sinkage counts from the plate's seat, where it first bears 1 kPa; in the runs from the "
+      "mean height of the surface."}));
   return report;
 }
 

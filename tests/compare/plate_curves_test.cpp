@@ -58,6 +58,16 @@ TEST(PlateCurves, WithoutTestsNothingIsAsked) {
   EXPECT_TRUE(beside_measured({}, {}, {}).features.empty());
 }
 
+// Grains bear from 5 mm above their mean surface on, 1 kPa 3 mm above it: 2 mm below that the pressure is that at -1
+// mm.
+TEST(PlateCurves, SinkageOfGrainsCountsFromTheSeat) {
+  dem::PlateRun run{.diameter = 0.15, .speed = 0, .curve = {}};
+  for (const auto& [sinkage, pressure] : {std::pair{-5e-3, 100.0}, {-3e-3, 1100.0}, {-1e-3, 4000.0}, {1e-3, 9000.0}})
+    run.curve.push_back({sinkage, pressure});
+  EXPECT_EQ(seat_of(run), -3e-3);
+  EXPECT_NEAR(simulated({0.15, 2e-3}, {run}).value, 4000.0, 1e-9);
+}
+
 // Two tests, 0.5 and 1.5 of their mean: the error is that of their mean, half of it, and not the 10 % taken elsewhere.
 TEST(PlateCurves, ErrorsCoverWhatTestsDiffer) {
   const std::vector tests{straight(0.15, 0.08, 0.5), straight(0.15, 0.08, 1.5)};
@@ -108,9 +118,10 @@ TEST(SlowPlateCurves, GrainsArePressedAsTheMeasuredPlates) {
   for (std::size_t k = 0; k < points.size(); ++k) EXPECT_EQ(answer[k].value, simulated(points[k], runs).value);
 
   MeasuredPlate itself{.test = "grains", .curve = {.radius = 3 * grain, .pressure = {}, .sinkage = {}}};
+  const double seat = seat_of(runs.front());
   for (const dem::PlateSample& at : runs.front().curve)
-    if (at.sinkage > 0 && at.pressure > 0)
-      itself.curve.sinkage.push_back(at.sinkage), itself.curve.pressure.push_back(at.pressure);
+    if (at.sinkage > seat && at.pressure > 0)
+      itself.curve.sinkage.push_back(at.sinkage - seat), itself.curve.pressure.push_back(at.pressure);
   for (const FeatureBeside& one : beside_measured({itself}, points_of(std::vector{itself}, 0.9 * grain), runs).features)
     EXPECT_NEAR(one.off(), 0, 0.5) << one.measured.name;
 }
