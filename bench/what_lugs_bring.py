@@ -5,8 +5,8 @@
 Reads the records of heavy-lugged-incline and heavy-smooth-incline (cases/studies/recorded) and prints Markdown tables,
 a row a condition that both have on one bed sample; with half of the lugs beside them (heavy-half-lugged-incline); then,
 of the conditions that heavy-lugged-17mm and heavy-smooth-17mm have too, a row a grain size. All tires run on one bed at
-one slip of the tread base, so that what beds differ by cancels. "Infinitely fine" is by the twins with grains 1.4 times as large, D + (D - D_coarser)/0.4. ± is
-one standard error of the runs' fluctuations.
+one slip of the tread base, so that what beds differ by cancels. "Infinitely fine" is by the twins with grains 1.4 times
+as large, D + (D - D_coarser)/0.4. ± is one standard error of the runs' fluctuations.
 """
 import argparse
 import json
@@ -104,7 +104,8 @@ def print_by_grain_size(pairs):
 def pull_by_number(key):
     """What half of the lugs and all of them add to the pull by passive_blade and by rft, in % of the load."""
     at = soilbin.OperatingCondition(**dict(zip(CONDITION, key[1:])))
-    smooth, *others = (soilbin.find_case(f"heavy-{tire}-incline").scenario for tire in ("smooth", "half-lugged", "lugged"))
+    smooth, *others = (soilbin.find_case(f"heavy-{tire}-incline").scenario
+                       for tire in ("smooth", "half-lugged", "lugged"))
     told = []
     for model, effects in ((BekkerWong(patch=False), ["lug_thrust:passive_blade"]), (soilbin.ResistiveForce(), [])):
         bare = (model, soilbin.Scenario(smooth.tire, smooth.soil))

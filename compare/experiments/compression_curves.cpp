@@ -68,14 +68,6 @@ double highest_mean(const std::vector<double>& values) {
   return most / static_cast<double>(wide);
 }
 
-/// x at which y first reaches a level above 0, by a line from the reading before, or from the origin.
-double first_at(const std::vector<double>& x, const std::vector<double>& y, double level) {
-  const auto first = std::ranges::find_if(y, [&](double value) { return value >= level; }) - y.begin();
-  const auto k = static_cast<std::size_t>(std::min<std::ptrdiff_t>(first, static_cast<std::ptrdiff_t>(y.size()) - 1));
-  const double before = k == 0 ? 0.0 : x[k - 1], from = k == 0 ? 0.0 : y[k - 1];
-  return y[k] > from ? before + (level - from) / (y[k] - from) * (x[k] - before) : x[k];
-}
-
 /// The columns of a file of triaxial tests.
 struct CompressionColumns {
   std::size_t test, confining, strain, deviator;

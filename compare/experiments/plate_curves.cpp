@@ -15,13 +15,9 @@ namespace {
 
 constexpr double taken_error = 0.10;
 
-/// The pressure where the plate first comes to this depth, by a line from the reading before, or from the origin.
+/// The pressure where the plate first comes to this depth, or to the deepest that it came to.
 double pressure_at(double depth, const std::vector<double>& sinkage, const std::vector<double>& pressure) {
-  const auto at = std::ranges::find_if(sinkage, [&](double z) { return z >= depth; });
-  if (at == sinkage.end()) return pressure.back();
-  const auto k = static_cast<std::size_t>(at - sinkage.begin());
-  if (k == 0) return pressure[0] * depth / sinkage[0];
-  return std::lerp(pressure[k - 1], pressure[k], (depth - sinkage[k - 1]) / (sinkage[k] - sinkage[k - 1]));
+  return first_at(pressure, sinkage, std::min(depth, std::ranges::max(sinkage)));
 }
 
 bekker_wong::PlateCurve loaded(const MeasuredPlate& test) {
@@ -54,15 +50,15 @@ std::vector<PlatePoint> points_of(std::span<const MeasuredPlate> tests, std::opt
 }
 
 std::vector<Target> targets_of(std::span<const MeasuredPlate> tests, std::span<const PlatePoint> points) {
+  std::vector<bekker_wong::PlateCurve> curves;
+  for (const MeasuredPlate& test : tests) curves.push_back(loaded(test));
   const bool one_size = points.empty() || points.front().diameter == points.back().diameter;
   std::vector<Target> targets;
   for (const PlatePoint& point : points) {
     std::vector<Estimate> pressures;
-    for (const MeasuredPlate& test : tests)
-      if (2 * test.curve.radius == point.diameter) {
-        const bekker_wong::PlateCurve curve = loaded(test);
+    for (const bekker_wong::PlateCurve& curve : curves)
+      if (2 * curve.radius == point.diameter)
         pressures.push_back({pressure_at(point.sinkage, curve.sinkage, curve.pressure), 0.0});
-      }
     Estimate measured = mean_of_repeats(pressures);
     measured.std_error = std::max(measured.std_error, taken_error * measured.value);
     targets.push_back({name_of(point, one_size), measured, "kPa", met_within * measured.std_error});
