@@ -78,19 +78,12 @@ dem::PlateSettings pressed_as(std::span<const PlatePoint> points, const Granular
   return settings;
 }
 
-double seat_of(const dem::PlateRun& run) {
-  constexpr double seated = 1e3;  // [Pa]
-  const auto bears = [](const dem::PlateSample& at) { return at.pressure > seated; };
-  const auto first = std::ranges::find_if(run.curve, bears);
-  return first == run.curve.end() ? run.curve.back().sinkage : first->sinkage;
-}
-
 Estimate simulated(const PlatePoint& point, const std::vector<dem::PlateRun>& runs) {
   std::vector<Estimate> pressures;
   for (const dem::PlateRun& run : runs) {
     if (std::abs(run.diameter - point.diameter) > 1e-9 * point.diameter) continue;
     const std::span<const dem::PlateSample> samples(run.curve);
-    const double seat = seat_of(run);
+    const double seat = run.seat();
     const auto sinkage = series_of(samples, [&](const dem::PlateSample& at) { return at.sinkage - seat; });
     const auto pressure = series_of(samples, [](const dem::PlateSample& at) { return at.pressure; });
     pressures.push_back({pressure_at(point.sinkage, sinkage, pressure), 0.0});

@@ -35,11 +35,6 @@ std::vector<Target> targets_of(std::span<const MeasuredPlate> tests, std::span<c
 dem::PlateSettings pressed_as(std::span<const PlatePoint> points, const GranularSoil& soil,
                               dem::PlateSettings settings);
 
-/// The sinkage [m] at which a plate seats itself, as in the field: where it first bears 1 kPa. The surface of grains is
-/// rough, and its mean as seen from above, from which a run counts, lies below the tops that the plate comes to rest
-/// on.
-double seat_of(const dem::PlateRun& run);
-
 /// The pressure at a point [Pa], its sinkage counted from the seat: mean over the packings of its plate, and its error,
 /// 0 of one.
 Estimate simulated(const PlatePoint& point, const std::vector<dem::PlateRun>& runs);

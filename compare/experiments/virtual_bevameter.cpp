@@ -9,7 +9,7 @@ namespace {
 /// A plate's curve from a tenth of a grain below its seat on.
 bekker_wong::PlateCurve curve_of(const dem::PlateRun& run, double grain) {
   bekker_wong::PlateCurve out{.radius = run.diameter / 2, .pressure = {}, .sinkage = {}};
-  const double seat = seat_of(run);
+  const double seat = run.seat();
   for (const dem::PlateSample& sample : run.curve) {
     if (sample.sinkage < seat + 0.1 * grain || sample.pressure <= 0) continue;
     out.pressure.push_back(sample.pressure);

@@ -377,7 +377,7 @@ Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil
                    {"speed", run.speed},
                    {"sinkage", column(run.curve, &Sample::sinkage)},
                    {"pressure", column(run.curve, &Sample::pressure)}});
-    const double from = beside.tests.empty() ? 0.0 : seat_of(run);
+    const double from = beside.tests.empty() ? 0.0 : run.seat();
     const auto sinkage = [=](const Sample& s) { return (s.sinkage - from) * 1e3; };
     add_line(plot, label_of(fmt::format("{} mm", number(run.diameter * 1e3)), run.packing, several), run.curve, sinkage,
              [](const Sample& s) { return s.pressure / 1e3; });

@@ -7,6 +7,8 @@
 //   const std::vector<AnnulusRun> rings = annular_shear(grains, {.stresses = {5e3, 10e3, 20e3}});        // [Pa]
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "dem/element_tests/specimen.hpp"
@@ -45,6 +47,16 @@ struct PlateRun {
   double void_ratio = 0;   ///< of the bed
   double density = 0;      ///< bulk density of the bed [kg/m^3]
   std::uint64_t packing = 0;
+
+  /// The sinkage [m] at which the plate seats itself, as in the field: where it first bears 1 kPa, or the last of the
+  /// curve. The surface of grains is rough, and its mean as seen from above, from which a run counts, lies below the
+  /// tops that the plate comes to rest on.
+  double seat() const {
+    constexpr double seated = 1e3;  // [Pa]
+    const auto bears = [](const PlateSample& at) { return at.pressure > seated; };
+    const auto first = std::ranges::find_if(curve, bears);
+    return first == curve.end() ? curve.back().sinkage : first->sinkage;
+  }
 };
 
 /// Presses each plate into a fresh copy of one bed. Throws InputError for plates narrower than narrowest_tool,

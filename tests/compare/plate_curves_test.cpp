@@ -64,7 +64,7 @@ TEST(PlateCurves, SinkageOfGrainsCountsFromTheSeat) {
   dem::PlateRun run{.diameter = 0.15, .speed = 0, .curve = {}};
   for (const auto& [sinkage, pressure] : {std::pair{-5e-3, 100.0}, {-3e-3, 1100.0}, {-1e-3, 4000.0}, {1e-3, 9000.0}})
     run.curve.push_back({sinkage, pressure});
-  EXPECT_EQ(seat_of(run), -3e-3);
+  EXPECT_EQ(run.seat(), -3e-3);
   EXPECT_NEAR(simulated({0.15, 2e-3}, {run}).value, 4000.0, 1e-9);
 }
 
@@ -118,7 +118,7 @@ TEST(SlowPlateCurves, GrainsArePressedAsTheMeasuredPlates) {
   for (std::size_t k = 0; k < points.size(); ++k) EXPECT_EQ(answer[k].value, simulated(points[k], runs).value);
 
   MeasuredPlate itself{.test = "grains", .curve = {.radius = 3 * grain, .pressure = {}, .sinkage = {}}};
-  const double seat = seat_of(runs.front());
+  const double seat = runs.front().seat();
   for (const dem::PlateSample& at : runs.front().curve)
     if (at.sinkage > seat && at.pressure > 0)
       itself.curve.sinkage.push_back(at.sinkage - seat), itself.curve.pressure.push_back(at.pressure);
