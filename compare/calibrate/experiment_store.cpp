@@ -116,9 +116,9 @@ void ExperimentStore::read() {
 }
 
 void ExperimentStore::tell_asked(Asked asked) {
-  if (!asked_.empty()) return;
-  asked_ = std::move(asked);
-  if (size() > 0) kept_.add([] {}, "");
+  const std::size_t told = asked_.size();
+  asked_.merge(asked);
+  if (asked_.size() > told && size() > 0) kept_.add([] {}, "");
 }
 
 ExperimentStore::Tests ExperimentStore::parsed(const SourceText& source, Asked& asked) {

@@ -86,12 +86,12 @@ class ExperimentStore {
   /// have the same experiment with different results, and for what is no store.
   void merge(const std::filesystem::path& other);
   std::size_t size() const;
-  /// The flags of the command that began it, by their names, so that its answers can be asked for again without them;
+  /// The flags of the commands that made it, by their names, so that its answers can be asked for again without them;
   /// empty where it does not tell.
   using Asked = std::map<std::string, std::string>;
   const Asked& asked() const { return asked_; }
-  /// Tells them, in a file that is yet to be begun with its first experiment; those that the file tells stay. Throws
-  /// std::runtime_error where the file can't be written.
+  /// Tells those that the file does not tell yet, as a check that was asked for later; what it tells stays. A file with
+  /// no experiment is begun with its first one. Throws std::runtime_error where the file can't be written.
   void tell_asked(Asked asked);
   /// Number of this test's experiments that an engine of other bits made.
   std::size_t of_other_engines(const VirtualTest& test) const;

@@ -99,6 +99,20 @@ std::pair<double, double> mean_and_rms(const nlohmann::json& map) {
   return {sum / n, std::sqrt(squares / n)};
 }
 
+/// Root mean square of what fresh conditions gave less what the map predicted [share of the load]; each within two
+/// standard errors.
+double check_error(const nlohmann::json& map) {
+  EXPECT_EQ(map["checks"].size(), 5U);
+  double squares = 0.0;
+  for (const auto& one : map["checks"]) {
+    const auto &found = one["found"], &predicted = one["predicted"];
+    const double off = found["value"].get<double>() - predicted["value"].get<double>();
+    EXPECT_LT(std::abs(off), 2 * std::hypot(found["std_error"].get<double>(), predicted["std_error"].get<double>()));
+    squares += off * off;
+  }
+  return std::sqrt(squares / static_cast<double>(map["checks"].size()));
+}
+
 // docs/lab/failure-maps.md on the heavy lugged tire: the analytic wheel pulls too much, decided; the effects that it
 // lacks take half of that; resistive force theory, from density and friction angle alone, is near.
 TEST(SlowFailureMapCommand, DecidesAboutAHeavyLuggedTire) {
@@ -113,6 +127,8 @@ TEST(SlowFailureMapCommand, DecidesAboutAHeavyLuggedTire) {
   EXPECT_LT(mean_and_rms(rft).second, 0.08);
   EXPECT_GT(rft["shares"]["agree"].get<double>(), 0.2);
   EXPECT_LT(rft["shares"]["differ"].get<double>(), 0.05);
+  EXPECT_LT(check_error(analytic), 0.01);
+  EXPECT_LT(check_error(rft), 0.01);
 }
 
 TEST(SlowFailureMapCommand, AsksTheLibrarysMapAgainWithoutItsFlags) {

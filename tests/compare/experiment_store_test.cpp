@@ -193,7 +193,7 @@ TEST(ExperimentStores, WithoutSealsTheyAreReadAndCounted) {
   EXPECT_EQ(ExperimentStore(folder / "old.json").unsealed(), 1U) << "writing it again vouches for nothing";
 }
 
-TEST(ExperimentStores, TellTheFlagsOfTheCommandThatBeganThem) {
+TEST(ExperimentStores, TellTheFlagsOfTheCommandsThatMadeThem) {
   const Folder folder;
   {
     ExperimentStore store(folder / "asked.json");
@@ -202,9 +202,10 @@ TEST(ExperimentStores, TellTheFlagsOfTheCommandThatBeganThem) {
     store.add(board_test(), made_experiment(0.4));
   }
   ExperimentStore again(folder / "asked.json");
-  again.tell_asked({{"--load", "1kN..2kN"}});
-  EXPECT_EQ(again.asked().at("--load"), "2kN..8kN");
+  again.tell_asked({{"--load", "1kN..2kN"}, {"--check", "5"}});
+  EXPECT_EQ(again.asked().at("--load"), "2kN..8kN") << "what it tells stays";
   EXPECT_EQ(again.size(), 1U);
+  EXPECT_EQ(ExperimentStore(folder / "asked.json").asked().at("--check"), "5") << "what came later is added";
 }
 
 // As soilbins of before wrote them.
