@@ -100,6 +100,21 @@ Table told_beside(const std::vector<FeatureBeside>& features, Json& values) {
   return table;
 }
 
+/// How near grains come to the measured tests, for the first line of an answer; "" without tests.
+std::string nearness(const std::vector<FeatureBeside>& features) {
+  if (features.empty()) return "";
+  const auto errors_off = [](const FeatureBeside& one) { return std::abs(one.off()); };
+  const auto met = std::ranges::count_if(
+      features, [](double off) { return off <= met_within; }, errors_off);
+  const FeatureBeside& farthest = *std::ranges::max_element(features, {}, errors_off);
+  const double per_si = per_unit(farthest.measured.unit);
+  return fmt::format(
+      "Grains are within {} errors of the measured tests at {} of {} features; farthest off is {}: {} {} "
+      "for {} measured.",
+      number(met_within, 1), met, features.size(), farthest.measured.name, number(farthest.grains, per_si),
+      farthest.measured.unit, number(farthest.measured.measured, per_si));
+}
+
 /// The report of a test; `table` is empty where it has one run, which the sentences tell.
 Report report_of(const char* test, const std::string& soil, Table table, std::vector<std::string> sentences,
                  const Json& values, Sheet sheet) {
@@ -203,6 +218,7 @@ Report report_on(const dem::TriaxialResult& result, const std::string& soil,
               {"peak", json_of(result.peak)},
               {"residual", json_of(result.residual)},
               {"runs", std::move(runs)}};
+  sentences.insert(sentences.begin(), nearness(beside.features));
   Table features = told_beside(beside.features, values);
   for (const CompressionCurve& test : beside.tests) {
     const std::string label = fmt::format("{}, {} kPa, measured", test.test, number(test.confining / 1e3));
@@ -385,6 +401,7 @@ Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil
   std::vector<std::string> sentences = told_means(means_of(runs, &dem::PlateRun::diameter, pressure_at_end),
                                                   "At the deepest, plate of", "mm", 1e3, "diameter", "pressure", means);
   Json values{{"runs", std::move(all)}, {"at_end", std::move(means)}};
+  sentences.insert(sentences.begin(), nearness(beside.features));
   Table features = told_beside(beside.features, values);
   for (const MeasuredPlate& test : beside.tests)
     add_measured(plot, test.test + ", measured", test.curve.sinkage, 1e3, test.curve.pressure, 1e-3);

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "compare/experiments/element_experiments.hpp"
+#include "compare/report/report.hpp"
+#include "compare/telling/reports.hpp"
 #include "tests/dem/small_bed.hpp"
 
 namespace soilbin::compare {
@@ -13,6 +15,7 @@ namespace {
 
 using testing::DoubleNear;
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 /// p = 2 MN/m^3 z, pressed to this depth in 40 readings.
 MeasuredPlate straight(double diameter, double deepest, double factor = 1.0) {
@@ -91,6 +94,18 @@ GranularSoil grains() {
   GranularSoil soil = dem::test::soft_soil();
   soil.youngs_modulus = 2e7;
   return soil;
+}
+
+// Half of the pressure at 20 mm is ten errors of 5 % off, all of it at 10 mm none.
+TEST(PlateCurves, AnAnswerBeginsWithHowNearGrainsCome) {
+  const MeasuredPlate plate = straight(0.15, 20e-3);
+  dem::PlateRun run{.diameter = 0.15, .speed = 0, .curve = {{0, 2e3}, {20e-3, 20e3}}};
+  const MeasuredBeside<MeasuredPlate> beside{
+      {plate},
+      {{{"pressure.10mm", {20e3, 1e3}, "kPa"}, {20e3, 0}}, {{"pressure.20mm", {40e3, 2e3}, "kPa"}, {20e3, 0}}}};
+  EXPECT_THAT(text_of(report_on(std::vector{run}, "sand", beside)),
+              HasSubstr("Grains are within 2 errors of the measured tests at 1 of 2 features; farthest off is "
+                        "pressure.20mm: 20.00 kPa for 40.0 ± 2.0 measured."));
 }
 
 // The virtual test is dem::plate_sinkage with the measured plates; a soil whose measured plates are its own grains

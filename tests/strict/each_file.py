@@ -31,11 +31,14 @@ def checks(build):
     return [(name, *rest) for name, rest in sorted(found.items())]
 
 
-def precompile(build, todo):
-    """Headers that the commands include precompiled, and the one that the build writes."""
-    headers = {Path(command[command.index("-include") + 1]) for _, _, command in todo if "-include" in command}
-    targets = [f"{header.relative_to(build)}.gch" for header in sorted(headers)]
-    subprocess.run(["cmake", "--build", str(build), "--target", "soilbin_source_state", *targets], check=True)
+def precompile(build):
+    """The headers that a floor precompiles, and the one that the build writes."""
+    entries = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
+    for entry in entries:
+        file = Path(entry["file"])
+        if file.name == "cmake_pch.hxx.cxx" and file.relative_to(build).parts[0] in FLOORS:
+            subprocess.run(shlex.split(entry["command"]), cwd=entry["directory"], check=True)
+    subprocess.run(["cmake", "--build", str(build), "--target", "soilbin_source_state"], check=True)
 
 
 def main(build):
@@ -47,7 +50,7 @@ def main(build):
     todo = checks(build)
     if not todo:
         sys.exit(f"{build}: no source files")
-    precompile(build, todo)
+    precompile(build)
     failed = 0
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         for name, status, errors in pool.map(compiles, todo):
