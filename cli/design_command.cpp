@@ -1,6 +1,4 @@
 // soilbin design: the runs that are expected to tell effects apart best, before any is made.
-#include <fmt/core.h>
-
 #include <filesystem>
 #include <memory>
 
@@ -9,7 +7,7 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/rig_flags.hpp"
-#include "compare/sweep/result_json.hpp"
+#include "compare/telling/reports.hpp"
 #include "compare/test_design/planned_runs.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/errors.hpp"
@@ -24,15 +22,8 @@ struct DesignFlags {
   std::vector<std::string> limits, effects, noise;
   int runs = 24;
   unsigned seed = 1;
-  bool json = false;
+  OutputFlags outputs;
 };
-
-void print_design(const compare::TestDesign& design) {
-  fmt::print("{}\n", design.campaign);
-  for (const std::string& sentence : compare::in_sentences(design)) fmt::print("\n{}\n", sentence);
-  for (const compare::Table& table : {compare::runs_table(design), compare::pairs_table(design)})
-    fmt::print("\n{}", as_text(table));
-}
 
 /// Throws InputError for a file that holds anything but these rows: somebody has filled them in.
 void refuse_other_rows(const std::string& file, const std::string& rows) {
@@ -55,12 +46,8 @@ int design(const DesignFlags& asked, const Session& session) {
   clear_progress_line();
   const std::string rows = asked.csv.in_dialect(compare::rows_to_fill_in(design));
   refuse_other_rows(asked.csv.file, rows);
-  Outputs outputs;
+  Outputs outputs = publish(compare::report_on(design), asked.outputs, {}, session);
   outputs.file(asked.csv.file, [&] { return rows; });
-  if (asked.json)
-    print_json(compare::to_json(design));
-  else
-    print_design(design);
   return outputs.status(done);
 }
 
@@ -85,7 +72,7 @@ void add_design(CLI::App& app, Session& session) {
       add_kept_file(*command, "--csv", asked->csv.file, "FILE.csv", "save the rows, to fill in as the campaign's runs");
   add_decimal_comma(*command, asked->csv)->needs(rows);
   add_value(*command, "--seed", asked->seed, "N", "seed of the order of the runs; 1");
-  command->add_flag("--json", asked->json, "the answer as JSON, soilbin-design/1");
+  asked->outputs.add_to(*command, {.json = "the answer as JSON, soilbin-design/1"});
   command->footer(
       "Example: soilbin design FOLDER --runs 24 --limit load=60N..140N --limit slip=-20%..60% --csv runs.csv");
   command->callback([=, &session] { session.action = [=, &session] { return design(*asked, session); }; });

@@ -13,7 +13,7 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
-#include "compare/report/json_fields.hpp"
+#include "compare/telling/reports.hpp"
 #include "dem/verification/fast_engine.hpp"
 #include "dem/verification/incline.hpp"
 #include "scenario/errors.hpp"
@@ -23,31 +23,7 @@
 namespace soilbin::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using dem::VerificationRow;
-
-Json json_of(const std::vector<VerificationRow>& rows) {
-  Json all = Json::array();
-  for (const VerificationRow& row : rows)
-    all.push_back({{"case", row.name},
-                   {"published", row.published},
-                   {"ours", row.ours},
-                   {"error", row.error()},
-                   {"tolerance", row.tolerance},
-                   {"unit", row.unit},
-                   {"source", row.source},
-                   {"pass", row.pass()}});
-  return {{"format", "soilbin-verify/1"}, {"rows", std::move(all)}};
-}
-
-void print_table(const std::vector<VerificationRow>& rows) {
-  Table table{"", {"case", "published", "ours", "error", "tolerance", "unit", ""}};
-  for (const VerificationRow& row : rows)
-    table.add({row.name, fmt::format("{:.6g}", row.published), fmt::format("{:.6g}", row.ours),
-               fmt::format("{:.2g}", row.error()), fmt::format("{:.2g}", row.tolerance), row.unit,
-               row.pass() ? "ok" : "FAILED"});
-  fmt::print("{}", as_text(table));
-}
 
 /// The cases of which a name contains the text. Throws InputError with the nearest name where there is none.
 std::vector<dem::VerificationCase> cases_named(const std::string& containing) {
@@ -64,35 +40,34 @@ std::vector<dem::VerificationCase> cases_named(const std::string& containing) {
                                did_you_mean(containing, names), listed(names)));
 }
 
-int verify(bool json, std::optional<std::uint64_t> incline, const std::string& containing) {
+struct VerifyFlags {
+  std::optional<std::uint64_t> incline;
+  std::string containing;
+  OutputFlags outputs;
+};
+
+int verify(const VerifyFlags& asked, const Session& session) {
   std::vector<VerificationRow> rows =
-      incline ? dem::incline_rows(*incline, show_dem_progress)
-              : dem::rows_of(cases_named(containing), dem::start_fast_engine, shown_progress());
+      asked.incline ? dem::incline_rows(*asked.incline, show_dem_progress)
+                    : dem::rows_of(cases_named(asked.containing), dem::start_fast_engine, shown_progress());
   clear_progress_line();
-  if (!incline)
-    std::erase_if(rows, [&](const VerificationRow& row) { return row.name.find(containing) == std::string::npos; });
-  const auto passed = std::ranges::count_if(rows, [](const auto& row) { return row.pass(); });
-  if (json) {
-    print_json(json_of(rows));
-  } else {
-    print_table(rows);
-    fmt::print("{} of {} cases within their tolerance\n", passed, rows.size());
-  }
-  return passed == static_cast<std::ptrdiff_t>(rows.size()) ? done : failed;
+  if (!asked.incline)
+    std::erase_if(rows,
+                  [&](const VerificationRow& row) { return row.name.find(asked.containing) == std::string::npos; });
+  return publish(compare::report_on(rows), asked.outputs, {}, session)
+      .status(std::ranges::all_of(rows, &VerificationRow::pass) ? done : failed);
 }
 
 }  // namespace
 
 void add_verify(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("verify", "the discrete element engine against published numbers");
-  const auto containing = std::make_shared<std::string>();
-  const auto json = std::make_shared<bool>(false);
-  const auto incline = std::make_shared<std::optional<std::uint64_t>>();
-  CLI::Option* const layers = add_value(*command, "--incline", *incline, "SEED",
+  const auto asked = std::make_shared<VerifyFlags>();
+  CLI::Option* const layers = add_value(*command, "--incline", asked->incline, "SEED",
                                         "instead: layers on a rough incline, of this seed (a quarter of an hour)");
-  add_value(*command, "--case", *containing, "TEXT", "only cases whose name contains this")->excludes(layers);
-  command->add_flag("--json", *json, "soilbin-verify/1, for programs");
-  command->callback([=, &session] { session.action = [=] { return verify(*json, *incline, *containing); }; });
+  add_value(*command, "--case", asked->containing, "TEXT", "only cases whose name contains this")->excludes(layers);
+  asked->outputs.add_to(*command, {.json = "soilbin-verify/1, for programs"});
+  command->callback([=, &session] { session.action = [=, &session] { return verify(*asked, session); }; });
 }
 
 }  // namespace soilbin::cli

@@ -31,6 +31,7 @@ struct DrawnWheel;
 struct ConeRun;
 struct PlateRun;
 struct TiltingBoardResult;
+struct VerificationRow;
 struct TriaxialResult;
 }  // namespace soilbin::dem
 
@@ -62,6 +63,7 @@ struct ModelAnswers;
 struct Prediction;
 struct Reproduction;
 struct SlipMap;
+struct TestDesign;
 struct TurnAnswers;
 struct VehicleAnswers;
 struct WheelFmu;
@@ -115,6 +117,10 @@ Report report_on(const DrivenAnswers& answers);
 /// A row for each slope and heading.
 std::string csv_of(const GoMap& map);
 
+/// Runs to make before any is made: what they are expected to tell, the runs, each effect with what it is most easily
+/// taken for; the CSV is the campaign's rows to fill in; soilbin-design/1.
+Report report_on(const TestDesign& design);
+
 /// A table of forces for other programs: its axes, and how far its interpolation lies from the model;
 /// soilbin-force-table/1.
 Report report_on(const ForceTable& table);
@@ -164,6 +170,9 @@ Report report_on(const std::vector<dem::PlateRun>& runs, const std::string& soil
 /// `grain`: mean diameter of the soil's grains [m].
 Report report_on(const std::vector<dem::ConeRun>& runs, const std::string& soil, double grain);
 Report report_on(const std::vector<dem::AnnulusRun>& runs, const std::string& soil);
+
+/// The engine's verification against published numbers and closed forms, a row each; soilbin-verify/1.
+Report report_on(std::span<const dem::VerificationRow> rows);
 
 /// What was found in a drawing of a wheel and what was mended in it (docs/guide/bring-a-tire.md): triangles, bodies,
 /// unit, axle, size and volume, and each change; drawn from the side and from the front; soilbin-mesh/1. `file`: its

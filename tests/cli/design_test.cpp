@@ -55,6 +55,16 @@ TEST(DesignCommand, NeverWritesOverRowsThatAreFilledIn) {
   EXPECT_EQ(text_of(rows), filled_in);
 }
 
+TEST(DesignCommand, IsAPageAsWell) {
+  const Scratch scratch;
+  scratch.write("campaign.yaml", planned_campaign);
+  const std::string page = (scratch / "plan.html").string();
+  const Outcome outcome =
+      soilbin("design '" + (scratch / "").string() + "' --runs 8 --limit load=60N..140N --report '" + page + "'");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(text_of(page), HasSubstr("8 runs to separate"));
+}
+
 // The rows stand in the campaign's own columns and units, so that they are read as they are once filled in.
 TEST(DesignCommand, SpeaksInTheCampaignsUnits) {
   const Scratch scratch;
