@@ -25,12 +25,23 @@ Json rows_json(std::span<const dem::VerificationRow> rows) {
   return {{"format", "soilbin-verify/1"}, {"rows", std::move(all)}};
 }
 
-Table rows_table(std::span<const dem::VerificationRow> rows) {
-  Table table{"", {"case", "published", "ours", "error", "tolerance", "unit", ""}};
-  for (const dem::VerificationRow& row : rows)
-    table.add({row.name, fmt::format("{:.6g}", row.published), fmt::format("{:.6g}", row.ours),
-               fmt::format("{:.2g}", row.error()), fmt::format("{:.2g}", row.tolerance), row.unit,
-               row.pass() ? "ok" : "FAILED"});
+/// On a page with the source of each published number; a line of a terminal has no room for it.
+Table rows_table(std::span<const dem::VerificationRow> rows, bool with_sources) {
+  Table table{"",
+              {"case", "published", "ours", "error", "tolerance", "unit", ""},
+              {true, false, false, false, false, false, true}};
+  if (with_sources) table.header.push_back("source"), table.text_columns.push_back(true);
+  for (const dem::VerificationRow& row : rows) {
+    std::vector<TableCell> cells = {row.name,
+                                    fmt::format("{:.6g}", row.published),
+                                    fmt::format("{:.6g}", row.ours),
+                                    fmt::format("{:.2g}", row.error()),
+                                    fmt::format("{:.2g}", row.tolerance),
+                                    row.unit,
+                                    row.pass() ? "ok" : "FAILED"};
+    if (with_sources) cells.push_back(row.source);
+    table.add(std::move(cells));
+  }
   return table;
 }
 
@@ -41,7 +52,8 @@ Report report_on(std::span<const dem::VerificationRow> rows) {
                                       std::ranges::count_if(rows, &dem::VerificationRow::pass), rows.size());
   Report report{"Verification of the discrete element engine", "Against published numbers and closed forms."};
   report.add(Sentences(std::vector<std::string>{met + "."}), Told::to_look_at);
-  report.add("Cases", rows_table(rows));
+  report.add("Cases", rows_table(rows, true), Told::to_look_at);
+  report.add(rows_table(rows, false), Told::on_terminals);
   report.notes = {met};
   report.data = [rows] { return rows_json(rows); };
   return report;
