@@ -40,7 +40,7 @@ class Reload final : public Effect {
  public:
   Reload(const std::vector<double>& p, bool from_surface)
       : amplitude_(p[0]), p0_(p[1]), elastic_(p[2]), from_surface_(from_surface) {}
-  bool presses() const override { return true; }
+  PressureLaw pressure_law() const override { return PressureLaw::by_depth; }
   void soil_depth(ContactPatch& patch, const Surroundings& around) const override {
     const double share = left_share(around);
     if (share == 0.0) return;
