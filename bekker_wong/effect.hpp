@@ -174,6 +174,8 @@ struct EffectForm {
   /// The conditions that the form reads, of those that only some effects do and about which no parameter is centred:
   /// "pass", "speed". Of a learned form: each of its variables.
   std::vector<std::string> conditions = {};
+  /// Whether the sinkage of a later pass counts from the floor of the rut; else from the undisturbed surface.
+  bool sinkage_from_rut_floor = false;
   std::function<std::unique_ptr<const Effect>(const std::vector<double>& parameters)> make;
 };
 
