@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "bekker_wong/effect.hpp"
 #include "bekker_wong/presumption.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/measured/campaign.hpp"
@@ -55,6 +56,15 @@ std::vector<std::string> why_it_pulls_without_slip(const ModelAnswers& model) {
 }
 
 /// Stresses under the wheel by each model at its only condition.
+/// Whether an efficiency of a tire that flattens is told.
+bool tells_flexible_efficiency(const std::vector<ModelAnswers>& study) {
+  return std::ranges::any_of(study, [](const ModelAnswers& model) {
+    return model.choice.model == ModelKind::bekker_wong && bekker_wong::is_flexible(model.choice.effects) &&
+           std::ranges::any_of(model.answers,
+                               [](const Answer& answer) { return answer.result && has_efficiency(*answer.result); });
+  });
+}
+
 Sheet stresses_of(const std::vector<ModelAnswers>& study) {
   std::vector<LabelledPatch> patches;
   for (const ModelAnswers& model : study)
@@ -288,6 +298,7 @@ Report report_on(const Case& question, const std::vector<ModelAnswers>& study) {
   report.add(WarningsHere());
   if (several && curves_run_over(question.study.conditions) != nullptr)
     report.add("Curves", Figure(report.sheet, "Bands: one standard error."));
+  if (tells_flexible_efficiency(study)) report.add(Sentences(std::vector<std::string>{carcass_without_loss}));
   const bool has_stresses = std::ranges::any_of(study, [](const ModelAnswers& model) {
     const std::optional<TractionResult>& result = model.answers.front().result;
     return result && !result->patch.empty();

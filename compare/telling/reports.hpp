@@ -114,6 +114,8 @@ Report report_on(const MeasuredAnswers& answers);
 Report report_on(const DrivenAnswers& answers);
 /// A row for each slope and heading.
 std::string csv_of(const GoMap& map);
+/// Slopes upward, headings to the right, blue where it goes on more than half of the soils.
+std::string svg_of(const GoMap& map);
 
 /// A table of forces for other programs: its axes, and how far its interpolation lies from the model;
 /// soilbin-force-table/1.
