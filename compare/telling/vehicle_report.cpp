@@ -490,7 +490,12 @@ std::string vehicle_csv(const VehicleAnswers& answers) {
 
 }  // namespace
 
-std::string svg_of(const GoMap& map) { return heat_map_svg(heat_map_of_go(map)); }
+std::string svg_of(const GoMap& map) {
+  std::string svg = heat_map_svg(heat_map_of_go(map));
+  svg.insert(svg.find('>') + 1, R"(<rect width="100%" height="100%" fill="#ffffff"/><g font-family="sans-serif">)");
+  svg.insert(svg.rfind("</svg>"), "</g>");
+  return svg;
+}
 
 std::string csv_of(const GoMap& map) {
   std::string text = "slope_deg,heading_deg,chance,chance_se\n";
@@ -518,7 +523,7 @@ Report report_on(const VehicleAnswers& answers) {
   report.add("Pull", pulls_table(answers));
   if (answers.map) {
     report.add("Where it goes", map_table(*answers.map));
-    report.add(Drawings{{svg_of(*answers.map)},
+    report.add(Drawings{{heat_map_svg(heat_map_of_go(*answers.map))},
                         "Blue: goes on more than half of the soils; orange: on fewer.",
                         "chance-to-go",
                         true},
