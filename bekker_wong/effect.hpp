@@ -83,6 +83,16 @@ struct Reading {
 inline constexpr std::array<double Reading::*, 4> reading_members = {&Reading::drawbar_pull, &Reading::torque,
                                                                      &Reading::sinkage, &Reading::lateral_force};
 
+/// What the pressure of the soil at a node follows from.
+enum class PressureLaw {
+  declared,  ///< the power law of the soil that acts
+  by_depth,  ///< another law of the depth alone
+  by_place,  ///< the depth, and where on the wheel the node is
+};
+
+/// Of all these effects together.
+PressureLaw pressure_law(std::span<const std::shared_ptr<const Effect>> effects);
+
 /// Joints of the wheel model, in the order in which they are called. Defaults do nothing.
 class Effect {
  public:
@@ -106,8 +116,8 @@ class Effect {
   virtual void soil_depth(ContactPatch&, const Surroundings&) const {}
   /// sigma is filled; change it in place. In press: of the geometry only the depths and the angle of entry are there.
   virtual void pressure(ContactPatch&, const SoilValues&, const Outline&, const Surroundings&) const {}
-  /// Whether soil_depth or pressure changes anything; a carcass has its closed form where none does.
-  virtual bool presses() const { return false; }
+  /// What soil_depth and pressure make of the pressure law; a carcass has closed forms of some.
+  virtual PressureLaw pressure_law() const { return PressureLaw::declared; }
   /// strength and modulus are filled; change them in place.
   virtual void strength(ContactPatch&, const SoilValues&, const Outline&, const Surroundings&) const {}
   /// mobilised is filled from |j|/K; change it in place. displacement: |j| at the nodes [m].
@@ -164,6 +174,8 @@ struct EffectForm {
   /// The conditions that the form reads, of those that only some effects do and about which no parameter is centred:
   /// "pass", "speed". Of a learned form: each of its variables.
   std::vector<std::string> conditions = {};
+  /// Whether the sinkage of a later pass counts from the floor of the rut; else from the undisturbed surface.
+  bool sinkage_from_rut_floor = false;
   std::function<std::unique_ptr<const Effect>(const std::vector<double>& parameters)> make;
 };
 

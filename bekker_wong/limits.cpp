@@ -87,6 +87,29 @@ std::optional<double> slip_for_pull(const RollingWheel& wheel, const OperatingCo
                              "the slip for a pull");
 }
 
+std::optional<double> free_slip(const RollingWheel& wheel, OperatingCondition at) {
+  constexpr double most_braked = -0.95;
+  const auto torque = [&](double slip) {
+    at.slip = slip;
+    return wheel.roll(at).reading.torque;
+  };
+  try {
+    double before = 0.0, at_before = torque(before);
+    const double step = at_before > 0.0 ? -slip_step : slip_step;
+    while (at_before != 0.0) {
+      const double here = std::clamp(before + step, most_braked, 1.0), value = torque(here);
+      if (here == before) return {};
+      if ((value > 0.0) != (at_before > 0.0))
+        return gsl::bracketed_root(torque, std::min(before, here), std::max(before, here), 1e-12,
+                                   1e-10 * at.load * wheel.tire().radius, "the slip of a free wheel");
+      before = here, at_before = value;
+    }
+    return before;
+  } catch (const NoSolution&) {
+    return {};
+  }
+}
+
 std::optional<double> largest_load(const RollingWheel& wheel, OperatingCondition at, double beyond) {
   const auto carries = [&](double load) {
     at.load = load;

@@ -1,4 +1,5 @@
-// What a wheel can do at best in a steady state: largest pull, slip for a given pull, largest load, steepest slope.
+// What a wheel can do at best in a steady state: largest pull, slip for a given pull, largest load, steepest slope; the
+// slip at which it rolls freely.
 //
 //   const RollingWheel wheel(tire, values_of(soil));
 //   const PullPeak peak = largest_pull(wheel, {.load = 4000});           // peak.drawbar_pull [N] at peak.slip
@@ -26,6 +27,10 @@ PullPeak largest_pull(const RollingWheel& wheel, const OperatingCondition& at, d
 /// pulls more at -0.5, as steep downhill. None where it can't, or where it pulls more even when locked or at the lowest
 /// slip at which the soil carries it.
 std::optional<double> slip_for_pull(const RollingWheel& wheel, const OperatingCondition& at, double drawbar = 0.0);
+
+/// The slip next to 0 at which the wheel takes no torque, on the slope that `at` gives: towed, it rolls freely. None
+/// where there is none above -0.95, or where from 0 to it the soil does not carry the load at every slip.
+std::optional<double> free_slip(const RollingWheel& wheel, OperatingCondition at);
 
 /// The largest load [N] up to `beyond` that the soil carries under the wheel at the slip and on the slope of `at`, to
 /// 1e-4 of it, by bisection; none where it carries no millionth of `beyond`.

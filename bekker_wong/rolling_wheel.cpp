@@ -36,6 +36,12 @@ void press(ContactPatch& patch, const Outline& outline, const Surroundings& arou
   for (const auto& effect : around.effects) effect->pressure(patch, around.soil, outline, around);
 }
 
+PressureLaw pressure_law(std::span<const std::shared_ptr<const Effect>> effects) {
+  PressureLaw most = PressureLaw::declared;
+  for (const auto& effect : effects) most = std::max(most, effect->pressure_law());
+  return most;
+}
+
 /// What one condition fixes before any trial sinkage.
 struct RollingWheel::Prepared {
   const OperatingCondition& at;

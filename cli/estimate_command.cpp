@@ -32,7 +32,8 @@ int estimate(const Question& inputs, const EstimateOptions& options, const Sessi
   const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
   compare::Report report = compare::report_on(question, study);
   report.data = [&] {
-    return document_of("soilbin-estimate/1", question, compare::rows_json(study), session.place.effects);
+    return document_of("soilbin-estimate/1", question, compare::rows_json(question.scenario.tire, study),
+                       session.place.effects);
   };
   report.resolved_case = write_case(question, session.place.effects);
   return publish(report, options.outputs, joined_doubts(std::move(notes), question, study), session).status(done);

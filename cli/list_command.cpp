@@ -205,7 +205,8 @@ Json effect_json(const bekker_wong::EffectForm& form) {
           {"provenance", in_words(provenance_of(form))},
           {"of", form.measurement ? "measurement" : "wheel"},
           {"parameters", parameters},
-          {"presumes", presumes}};
+          {"presumes", presumes},
+          {"sinkage_from_rut_floor", form.sinkage_from_rut_floor}};
 }
 
 /// A value of a parameter in its own unit, as people read it; units that need the soil's exponent are left in SI.

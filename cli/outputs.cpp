@@ -74,6 +74,12 @@ void Outputs::drawing(const std::string& name, const std::function<compare::Shee
   file(name, [&] { return drawing_format_of(name)->from_svg(compare::svg(sheet())); });
 }
 
+void Outputs::table_or_drawing(const std::string& name, const std::function<std::string()>& csv,
+                               const std::function<std::string()>& drawing) {
+  const DrawingFormat* format = drawing_format_of(name);
+  file(name, [&] { return format != nullptr ? format->from_svg(drawing()) : csv(); });
+}
+
 int Outputs::status(int so_far) const { return complete_ && answered_ ? so_far : failed; }
 
 CLI::Option* add_decimal_comma(CLI::App& command, CsvOutput& csv) {

@@ -35,6 +35,9 @@ class Outputs {
   void csv(const CsvOutput& asked, const std::function<std::string()>& content);
   /// A drawing in the format that the name's ending says.
   void drawing(const std::string& name, const std::function<compare::Sheet()>& sheet);
+  /// The drawing, an SVG, where the name ends as one; else the CSV.
+  void table_or_drawing(const std::string& name, const std::function<std::string()>& csv,
+                        const std::function<std::string()>& drawing);
 
   bool complete() const { return complete_; }
   /// The command's exit status: `so_far`, or `failed` where a file is missing or there is no answer.

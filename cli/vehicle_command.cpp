@@ -75,7 +75,8 @@ int vehicle(const VehicleOptions& options, const Session& session) {
                                   {.samples = static_cast<int>(options.samples), .progress = shown_progress()});
   const compare::Doubts doubts = compare::doubts_about(answers, std::move(notes));
   Outputs outputs = publish(compare::report_on(answers), options.outputs, doubts, session);
-  outputs.file(options.map, [&] { return compare::csv_of(*answers.map); });
+  outputs.table_or_drawing(
+      options.map, [&] { return compare::csv_of(*answers.map); }, [&] { return compare::svg_of(*answers.map); });
   return outputs.status(done);
 }
 
@@ -85,7 +86,7 @@ void add_vehicle(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand(
       "vehicle", "a vehicle on soil: does it go, how steep up, down and across, which wheel gives out");
   const auto options = std::make_shared<VehicleOptions>(*command);
-  CLI::Option* map = add_file(*command, "--map", options->map, "FILE.csv",
+  CLI::Option* map = add_file(*command, "--map", options->map, "FILE.csv|svg|png|pdf",
                               "the chance to go over slope and heading, by the soil's standard deviations");
   add_value(*command, "--samples", options->samples, "WHOLE", "soils that the map draws (50)")->needs(map);
   CLI::Option* measured =

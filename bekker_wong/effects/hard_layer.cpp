@@ -27,7 +27,7 @@ double floor_depth(const Surroundings& around, double fallback) {
 class Hyperbolic final : public Effect {
  public:
   explicit Hyperbolic(const std::vector<double>& p) : amplitude_(p[0]), depth_(p[1]) {}
-  bool presses() const override { return true; }
+  PressureLaw pressure_law() const override { return PressureLaw::by_depth; }
   void pressure(ContactPatch& patch, const SoilValues&, const Outline&, const Surroundings& around) const override {
     const double per_depth = amplitude_ / floor_depth(around, depth_);
     for (int i = 0; i < patch.count; ++i)
@@ -42,7 +42,7 @@ class Hyperbolic final : public Effect {
 class Logarithmic final : public Effect {
  public:
   explicit Logarithmic(const std::vector<double>& p) : pressure_(p[0]), depth_(p[1]) {}
-  bool presses() const override { return true; }
+  PressureLaw pressure_law() const override { return PressureLaw::by_depth; }
   void pressure(ContactPatch& patch, const SoilValues&, const Outline&, const Surroundings& around) const override {
     const double z_w = floor_depth(around, depth_);
     for (int i = 0; i < patch.count; ++i)
@@ -57,7 +57,7 @@ class Logarithmic final : public Effect {
 class Transition final : public Effect {
  public:
   explicit Transition(const std::vector<double>& p) : amplitude_(p[0]), depth_(p[1]) {}
-  bool presses() const override { return true; }
+  PressureLaw pressure_law() const override { return PressureLaw::by_depth; }
   void pressure(ContactPatch& patch, const SoilValues&, const Outline&, const Surroundings&) const override {
     for (int i = 0; i < patch.count; ++i) {
       const double beyond = std::max(0.0, patch.depth[i] / depth_ - 1);

@@ -40,7 +40,7 @@ class Reload final : public Effect {
  public:
   Reload(const std::vector<double>& p, bool from_surface)
       : amplitude_(p[0]), p0_(p[1]), elastic_(p[2]), from_surface_(from_surface) {}
-  bool presses() const override { return true; }
+  PressureLaw pressure_law() const override { return PressureLaw::by_depth; }
   void soil_depth(ContactPatch& patch, const Surroundings& around) const override {
     const double share = left_share(around);
     if (share == 0.0) return;
@@ -113,6 +113,7 @@ EffectForm reload(const std::string& form, bool from_surface) {
                      {"e", "-", 0.1, 0.02, 1.0, "elastic share: rebound of the rut over the static sinkage"}},
       .steady_only = from_surface ? "a drive counts its sinkage from the rut's floor: take the variant reload" : "",
       .conditions = {"pass"},
+      .sinkage_from_rut_floor = !from_surface,
       .make = [from_surface](const std::vector<double>& p) { return std::make_unique<const Reload>(p, from_surface); }};
 }
 
@@ -128,6 +129,7 @@ std::vector<EffectForm> multipass_forms() {
        .parameters = {{"a", "-", 0.5, 0.0, 20.0, "relative growth of the stiffness after many passes"},
                       {"p0", "-", 1.0, 0.2, 20.0, "passes after which most of the compaction is done"}},
        .conditions = {"pass"},
+       .sinkage_from_rut_floor = true,
        .make = maker<Stiffer>()},
       reload("reload", false),
       reload("reload_from_surface", true),
@@ -143,6 +145,7 @@ std::vector<EffectForm> multipass_forms() {
                       {"q", "-", 0.3, 0.0, 2.0, "further growth by the second pass, over that by slip"},
                       {"p0", "-", 2.0, 0.2, 20.0, "passes after which most of the further growth is done"}},
        .conditions = {"pass"},
+       .sinkage_from_rut_floor = true,
        .make = maker<SlipHardening>()},
       {.id = id,
        .form = "rut_power",

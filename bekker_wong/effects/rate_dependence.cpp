@@ -42,7 +42,7 @@ void harden_with_speed(ContactPatch& patch, const Outline& outline, const Surrou
 class Grahn final : public Effect {
  public:
   explicit Grahn(const std::vector<double>& p) : m_(p[0]), v0_(p[1]) {}
-  bool presses() const override { return true; }
+  PressureLaw pressure_law() const override { return PressureLaw::by_place; }
   void pressure(ContactPatch& patch, const SoilValues&, const Outline& o, const Surroundings& around) const override {
     harden_with_speed(patch, o, around, m_, [&](double v_z) {
       const double r = v_z / v0_;
@@ -58,7 +58,7 @@ class Grahn final : public Effect {
 class QuasiStatic final : public Effect {
  public:
   explicit QuasiStatic(const std::vector<double>& p) : m_(p[0]), v0_(p[1]) {}
-  bool presses() const override { return true; }
+  PressureLaw pressure_law() const override { return PressureLaw::by_place; }
   void pressure(ContactPatch& patch, const SoilValues&, const Outline& o, const Surroundings& around) const override {
     harden_with_speed(patch, o, around, m_, [&](double v_z) { return 1 + v_z / v0_; });
   }

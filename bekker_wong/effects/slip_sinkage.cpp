@@ -45,7 +45,7 @@ template <double (*Factor)(double amplitude, double slip)>
 class Loosening final : public Effect {
  public:
   explicit Loosening(const std::vector<double>& p) : amplitude_(p[0]) {}
-  bool presses() const override { return true; }
+  PressureLaw pressure_law() const override { return PressureLaw::by_depth; }
   void pressure(ContactPatch& patch, const SoilValues& soil, const Outline&,
                 const Surroundings& around) const override {
     const double factor = std::pow(Factor(amplitude_, driven_slip(around)), -soil.exponent);

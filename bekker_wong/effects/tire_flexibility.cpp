@@ -19,7 +19,8 @@
 // ground but W/(2 b p_g) long, a chord, which is longer than a tire's print of that deflection: it keeps to p_g.
 //
 // S takes the soil that acts, P(y), with all that other effects make of it: the tread rests where soil and carcass
-// press alike. Of the base model's power law S is known in closed form; of another law it is found at each node.
+// press alike. Of the base model's power law S is known in closed form, and so is that of the cap where the pressure
+// follows from the depth alone, once the depth z_g at which it is p_g/a is found; else S is found at each node.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -94,13 +95,15 @@ struct Depths {
 /// p_g, which should be rigid, would have a long contact behind the axle and pull 5 % of its load too much. So the
 /// exit is that of a corner four times as sharp.
 struct PressureCap {
-  double n, most, deepest;  // z_g of the power law, (p_g/(a k))^(1/n)
+  static constexpr bool by_depth_alone = true;  // its decisive depth is that of every node alike
+  double n, most, deepest;                      // z_g; of the power law (p_g/(a k))^(1/n)
   PressureCap(double a, const Outline& outline, const Surroundings& around)
       : n(around.soil.exponent),
         most(ground_pressure(around.tire) / a),
         deepest(std::pow(most / pressing_modulus(outline, around), 1 / n)) {}
   /// The depth at which the soil's pressure decides where the tread lies: z_g; that of the power law.
   double decisive(double) const { return deepest; }
+  void decide(double z_g) { deepest = z_g; }
   /// Rises with that depth, 1 where it is right.
   double residual(double, double pressure, double) const { return pressure / most; }
   double tread(double z_g, double d) const { return d * rounded(d / z_g); }
@@ -139,6 +142,7 @@ double carcass_softness(double a, const Outline& outline, const Surroundings& ar
 
 /// Carcass and soil in series: d = S + softness P(S).
 struct CarcassSpring {
+  static constexpr bool by_depth_alone = false;
   double n, softness, give, log_give;  // softness [m/Pa]; give [m^(1-n)]: deflection = give S^n
   CarcassSpring(double a, const Outline& outline, const Surroundings& around)
       : n(around.soil.exponent),
@@ -178,24 +182,35 @@ template <class Law>
 class Tread {
  public:
   Tread(double amplitude, const Outline& outline, const Surroundings& around, double entry)
-      : law_(amplitude, outline, around), outline_(outline), around_(around), entry_(entry) {}
+      : law_(amplitude, outline, around), outline_(outline), around_(around), entry_(entry) {
+    if (around.stress_share == 0.0) return;
+    const PressureLaw pressed = pressure_law(around.effects);
+    node_by_node_ = pressed != PressureLaw::declared;
+    if constexpr (Law::by_depth_alone)
+      if (pressed == PressureLaw::by_depth) decide(), node_by_node_ = false;
+  }
 
   void operator()(std::span<const double> d, Depths& reached) const {
     constexpr double step = 1e-5;  // relative, of d
     law_(d, reached);
-    Array decisive;
-    const auto presses = [](const auto& effect) { return effect->presses(); };
-    if (d.empty() || around_.stress_share == 0.0 || std::ranges::none_of(around_.effects, presses) ||
-        power_law_acts(d, decisive))
-      return;
+    Decisive at;
+    if (!solved(d, at, reached.value)) return;
     Array low, high, below, above;
     for (std::size_t i = 0; i < d.size(); ++i) low[i] = d[i] * (1 - step), high[i] = d[i] * (1 + step);
-    const std::span<const double> lower{low.data(), d.size()}, higher{high.data(), d.size()};
-    solve(d, decisive, reached.value);
-    solve(lower, decisive, below);
-    solve(higher, decisive, above);
+    Decisive lower = at, higher = at;
+    solve({low.data(), d.size()}, lower, below);
+    solve({high.data(), d.size()}, higher, above);
     for (std::size_t i = 0; i < d.size(); ++i)
       if (d[i] > least()) reached.slope[i] = (above[i] - below[i]) / (high[i] - low[i]);
+  }
+
+  /// S alone.
+  void depths(std::span<const double> d, Array& value) const {
+    Depths reached;
+    law_(d, reached);
+    Decisive at;
+    solved(d, at, reached.value);
+    std::copy_n(reached.value.begin(), d.size(), value.begin());
   }
 
   /// The share of the stresses at which S(d) = y.
@@ -223,9 +238,9 @@ class Tread {
   }
   double tread_at_lowest() const {
     const double depth = lowest();
-    Depths reached;
-    (*this)({&depth, 1}, reached);
-    return reached.value[0];
+    Array reached;
+    depths({&depth, 1}, reached);
+    return reached[0];
   }
   /// Below this depth the tread's share of it stays the same [m].
   double least() const { return 1e-9 * outline_.radius; }
@@ -240,6 +255,11 @@ class Tread {
     for (std::size_t i = 0; i < depth.size(); ++i) pressure[i] = around_.stress_share * probe.sigma[i];
   }
 
+  /// ln of the decisive depths of many nodes, and how fast the residual's ln rises with each.
+  struct Decisive {
+    Array t, rise;
+  };
+
   /// ln of the law's residual at the decisive depths e^t, 0 where they are right; gives the largest.
   double residuals(std::span<const double> d, const Array& t, Array& left) const {
     Array depth, pressure;
@@ -253,23 +273,50 @@ class Tread {
     return most;
   }
 
-  /// Whether no effect changes the pressure where it decides; leaves ln of the decisive depths of the power law.
-  bool power_law_acts(std::span<const double> d, Array& t) const {
+  /// Whether no effect changes the pressure where it decides; leaves the decisive depths of the power law.
+  bool power_law_acts(std::span<const double> d, Decisive& at) const {
     Array left;
-    for (std::size_t i = 0; i < d.size(); ++i) t[i] = std::log(law_.decisive(std::max(d[i], least())));
-    return residuals(d, t, left) < 1e-12;
+    for (std::size_t i = 0; i < d.size(); ++i) at.t[i] = std::log(law_.decisive(std::max(d[i], least())));
+    at.rise.fill(law_.n);
+    return residuals(d, at.t, left) < 1e-12;
   }
 
-  /// S at many nodes at once by the secant method on ln of the residual over t, which rises; where it leaves the
-  /// bracket found so far, the bracket is halved.
-  void solve(std::span<const double> d, Array t, Array& value) const {
+  /// Finds the one decisive depth, and leaves the law as its closed form with it.
+  void decide() {
+    const double surface = 0.0;
+    Decisive at;
+    if (power_law_acts({&surface, 1}, at)) return;
+    find({&surface, 1}, at);
+    law_.decide(std::exp(at.t[0]));
+  }
+
+  /// Finds S at many nodes where it has no closed form; false, and nothing, where it has.
+  bool solved(std::span<const double> d, Decisive& at, Array& value) const {
+    if (!node_by_node_ || std::ranges::all_of(d, [](double depth) { return depth <= 0.0; }) || power_law_acts(d, at))
+      return false;
+    solve(d, at, value);
+    return true;
+  }
+
+  void solve(std::span<const double> d, Decisive& at, Array& value) const {
+    find(d, at);
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      const double circle = std::max(d[i], least());
+      value[i] = law_.tread(std::exp(at.t[i]), circle) * (std::max(d[i], 0.0) / circle);
+    }
+  }
+
+  /// The decisive depths of many nodes at once, from those nearby, by the secant method on ln of the residual over t,
+  /// which rises; where it leaves the bracket found so far, the bracket is halved.
+  void find(std::span<const double> d, Decisive& at) const {
     constexpr double longest = 2.0, unknown = 1e3, accuracy = 1e-13;
-    Array left, before, slope, step, low, high;
-    slope.fill(law_.n), low.fill(-unknown), high.fill(unknown);
+    auto& [t, rise] = at;
+    Array left, before, step, low, high;
+    low.fill(-unknown), high.fill(unknown);
     double most = residuals(d, t, left);
     for (int round = 0; round < 100 && most > accuracy; ++round) {
       for (std::size_t i = 0; i < d.size(); ++i) {
-        const double wanted = t[i] + std::clamp(-left[i] / slope[i], -longest, longest);
+        const double wanted = t[i] + std::clamp(-left[i] / rise[i], -longest, longest);
         before[i] = left[i], step[i] = 0.0;
         if (std::abs(left[i]) < accuracy || wanted == t[i]) continue;
         (left[i] < 0.0 ? low : high)[i] = t[i];
@@ -278,13 +325,9 @@ class Tread {
       }
       const double now = residuals(d, t, left);
       for (std::size_t i = 0; i < d.size(); ++i)
-        if (const double secant = (left[i] - before[i]) / step[i]; step[i] != 0.0 && secant > 0.01) slope[i] = secant;
+        if (const double secant = (left[i] - before[i]) / step[i]; step[i] != 0.0 && secant > 0.01) rise[i] = secant;
       if (now < 100 * accuracy && now >= most) break;  // rounding is left
       most = now;
-    }
-    for (std::size_t i = 0; i < d.size(); ++i) {
-      const double circle = std::max(d[i], least());
-      value[i] = law_.tread(std::exp(t[i]), circle) * (std::max(d[i], 0.0) / circle);
     }
   }
 
@@ -292,6 +335,7 @@ class Tread {
   const Outline& outline_;
   const Surroundings& around_;
   double entry_;
+  bool node_by_node_ = false;  ///< whether S has no closed form: effects make another law of the pressure
 };
 
 template <class Law>
@@ -317,11 +361,12 @@ class Flattening final : public Effect {
     const Tread<Law> law(amplitude_, outline, around, p.angles.entry);
     const auto count = static_cast<std::size_t>(p.count);
     const double surface = std::cos(p.angles.entry);
-    Depths tread, mirrored;
+    Depths tread;
+    Array mirrored;
     law({circle_depths(p.of(&ContactPatch::normal_cosine), surface, outline).data(), count}, tread);
     std::size_t first_rear = 0;  // behind theta_m the pressure law looks at the mirror angle's depth
     while (first_rear < count && p.theta[first_rear] >= p.angles.max_stress) ++first_rear;
-    law({&p.circle_depth[first_rear], count - first_rear}, mirrored);
+    law.depths({&p.circle_depth[first_rear], count - first_rear}, mirrored);
     Array rise, stretch;  // of the tread a radian; arc length of the tread over the circle's
     for (std::size_t i = 0; i < count; ++i) rise[i] = tread.slope[i] * p.normal_sine[i];
     length({rise.data(), count}, p.of(&ContactPatch::normal_cosine), {stretch.data(), count});
@@ -330,7 +375,7 @@ class Flattening final : public Effect {
       p.normal_sine[i] = rise[i] / stretch[i];
       p.normal_cosine[i] /= stretch[i];
       p.arc[i] *= stretch[i];
-      p.depth[i] = i < first_rear ? tread.value[i] : mirrored.value[i - first_rear];
+      p.depth[i] = i < first_rear ? tread.value[i] : mirrored[i - first_rear];
     }
     p.deflection = law.deflection();
   }

@@ -85,7 +85,8 @@ Reply estimate_reply(const Setup& setup, const std::string& query) {
   const std::vector<ServedAnswer> sides = answers_to(setup, query);
   const ServedAnswer& first = sides.front();
   const Case& question = first.asked.question;
-  Json document = document_of("soilbin-estimate/1", question, compare::rows_json(first.point), setup.place().effects);
+  Json document = document_of("soilbin-estimate/1", question, compare::rows_json(question.scenario.tire, first.point),
+                              setup.place().effects);
   compare::add_warnings(document, joined_doubts(first.notes, question, first.point));
   document["command"] = command_line(first.asked.words);
   document["in_words"] = question_in_words(question);

@@ -126,7 +126,7 @@ Doubts heavy_on_sand(const Scenario& scenario, const Answer& answer) {
 Doubts sinkage_in_rut(const Scenario& scenario, const OperatingCondition& at) {
   if (at.pass < 2) return {};
   for (const EffectChoice& effect : scenario.effects)
-    if (effect.id == "multipass" && effect.form != "rut_power" && effect.form != "reload_from_surface")
+    if (bekker_wong::find_form(effect).sinkage_from_rut_floor)
       return {Doubt{DoubtKind::sinkage_in_rut, {effect.id + (effect.form.empty() ? "" : ":" + effect.form)}}};
   return {};
 }

@@ -107,9 +107,15 @@ std::string aligned(const std::vector<std::vector<std::string>>& table) {
 constexpr const char* tone_words[] = {"", "good", "bad", "open"};  // in the order of Tone
 constexpr std::size_t phrase = 24, long_text = 48;                 // characters that a cell may wrap beyond
 
-std::string plain_cell(const char* tag, const std::string& text, bool left) {
-  const std::string classes = std::string(left ? "t" : "") + (text.size() > long_text ? " wide" : "");
-  return fmt::format("<{0}{1}>{2}</{0}>", tag, classes.empty() ? "" : " class=\"" + classes + "\"", escaped(text));
+std::string note_behind(const std::string& note) {
+  return note.empty() ? "" : fmt::format(" <small>{}</small>", escaped(note));
+}
+
+std::string plain_cell(const char* tag, const TableCell& cell, bool left) {
+  const bool wide = cell.text.size() > long_text || cell.note.size() > phrase;
+  const std::string classes = std::string(left ? "t" : "") + (wide ? " wide" : "");
+  return fmt::format("<{0}{1}>{2}{3}</{0}>", tag, classes.empty() ? "" : " class=\"" + classes + "\"",
+                     escaped(cell.text), note_behind(cell.note));
 }
 
 std::string marked_cell(const TableCell& cell, bool left) {
@@ -120,8 +126,8 @@ std::string marked_cell(const TableCell& cell, bool left) {
   if (!width.empty()) classes += classes.empty() ? width : " " + width;
   std::string inside = escaped(cell.text);
   if (!cell.anchor.empty()) inside = fmt::format("<a href=\"#{}\">{}</a>", escaped(cell.anchor), inside);
-  if (!cell.note.empty()) inside += fmt::format(" <small>{}</small>", escaped(cell.note));
-  return fmt::format("<td{}>{}</td>", classes.empty() ? "" : " class=\"" + classes + "\"", inside);
+  return fmt::format("<td{}>{}{}</td>", classes.empty() ? "" : " class=\"" + classes + "\"", inside,
+                     note_behind(cell.note));
 }
 
 }  // namespace
@@ -153,7 +159,7 @@ std::string html_of(const Table& table) {
   for (const std::vector<TableCell>& row : table.rows) {
     out += "<tr>";
     for (std::size_t c = 0; c < row.size(); ++c)
-      out += table.marked ? marked_cell(row[c], table.is_text(c)) : plain_cell("td", row[c].text, table.is_text(c));
+      out += table.marked ? marked_cell(row[c], table.is_text(c)) : plain_cell("td", row[c], table.is_text(c));
     out += "</tr>\n";
   }
   return out + "</tbody></table></div>\n";

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "compare/report/number_text.hpp"
+#include "compare/sweep/wheel_power.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/unit.hpp"
@@ -174,6 +175,19 @@ Json rows_json(const std::vector<ModelAnswers>& study) {
       Json row = {{"model", std::string(word_of(model.choice.model))}, {"label", model.choice.label}};
       row.update(to_json(answer));
       rows.push_back(std::move(row));
+    }
+  return rows;
+}
+
+Json rows_json(const Tire& tire, const std::vector<ModelAnswers>& study) {
+  Json rows = rows_json(study);
+  auto row = rows.begin();
+  for (const ModelAnswers& model : study)
+    for (const Answer& answer : model.answers) {
+      if (answer.result)
+        if (const auto taken = power_of(tire, *answer.result))
+          (*row)["power"] = taken->power.value, (*row)["energy_per_metre"] = taken->energy.value;
+      ++row;
     }
   return rows;
 }

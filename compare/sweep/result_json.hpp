@@ -29,6 +29,9 @@ Json condition_schema();
 /// Every answer of every model as a flat list; each row names its model.
 Json rows_json(const std::vector<ModelAnswers>& study);
 
+/// As that, with power [W] and energy a metre [J/m] of the wheel.
+Json rows_json(const Tire& tire, const std::vector<ModelAnswers>& study);
+
 /// soilbin-run/1 with these rows, as yet without warnings.
 Json run_json(const Case& question, Json rows);
 

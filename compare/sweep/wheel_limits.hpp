@@ -13,6 +13,12 @@
 
 namespace soilbin::compare {
 
+/// A wheel that takes no torque, on level ground: what pulls it along.
+struct TowedWheel {
+  Estimate slip{};
+  Estimate resistance{};  ///< [N]; its error is not a number where a fit says how the soil's values err together
+};
+
 /// What a wheel can do on one slope.
 struct SlopeRow {
   double slope = 0.0;          ///< [rad]
@@ -22,6 +28,7 @@ struct SlopeRow {
       not_a_number;         ///< of `slip`; none on the steepest slope, where that slip is best.slip, and where
                             ///< it may not climb at all: near the pull's peak a slip has no error to first order
   double pull_error = 0.0;  ///< standard error of best.drawbar_pull [N]
+  double best_spin = not_a_number;  ///< angular speed at the largest pull [rad/s]; none where it spins on the spot
 
   /// Whether one standard error of the soil's values makes the slope one that it does not climb.
   bool perhaps_not_at_all() const { return slip && best.drawbar_pull > 0.0 && best.drawbar_pull < pull_error; }
@@ -42,8 +49,9 @@ struct WheelLimits {
   std::optional<double> steepest_within;  ///< [rad]; nothing also where there is no balance at such slips
   double within_error = 0.0;              ///< its standard error [rad]
   std::vector<SlopeRow> slopes;
-  std::string error;            ///< why there is no answer; empty where there is one
-  bool at_every_speed = false;  ///< of the question's: the same answer
+  std::optional<TowedWheel> towed{};  ///< none where the torque is 0 at no slip that is looked at
+  std::string error;                  ///< why there is no answer; empty where there is one
+  bool at_every_speed = false;        ///< of the question's: the same answer
 };
 
 /// Limits by each analytic model at each condition of the question, slip and incline left aside; conditions that

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "bekker_wong/effect.hpp"
 #include "bekker_wong/presumption.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/measured/campaign.hpp"
@@ -17,6 +18,7 @@
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/sweep/wheel_power.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/unit.hpp"
@@ -52,6 +54,15 @@ std::vector<std::string> why_it_pulls_without_slip(const ModelAnswers& model) {
       });
   if (!there) return {};
   return {"At 0 % slip (v = r ω) the soil is still compacted and sheared along the contact, so the pull is not 0."};
+}
+
+/// Whether an efficiency of a tire that flattens is told.
+bool tells_flexible_efficiency(const std::vector<ModelAnswers>& study) {
+  return std::ranges::any_of(study, [](const ModelAnswers& model) {
+    return model.choice.model == ModelKind::bekker_wong && bekker_wong::is_flexible(model.choice.effects) &&
+           std::ranges::any_of(model.answers,
+                               [](const Answer& answer) { return answer.result && has_efficiency(*answer.result); });
+  });
 }
 
 /// Stresses under the wheel by each model at its only condition.
@@ -214,7 +225,7 @@ std::vector<PrintedValue> printed_values(const TractionResult& r, ForcesIn told)
   return all;
 }
 
-std::vector<ReportPart> answer_parts(const ModelAnswers& model, const Answer& answer) {
+std::vector<ReportPart> answer_parts(const Tire& tire, const ModelAnswers& model, const Answer& answer) {
   std::vector<ReportPart> parts;
   if (!answer.result) {
     parts.push_back({Sentences(std::vector<BackedSentence>{
@@ -225,6 +236,9 @@ std::vector<ReportPart> answer_parts(const ModelAnswers& model, const Answer& an
   NamedValues values;
   for (const PrintedValue& one : printed_values(*answer.result))
     values.all.emplace_back(one.name, one.value + (one.unit.empty() ? "" : " " + one.unit));
+  if (const auto taken = power_of(tire, *answer.result))
+    values.all.emplace_back("Power", fmt::format("{} W at {} m/s, {} J a metre", number(taken->power),
+                                                 number(answer.at.speed, 3), number(taken->energy)));
   parts.push_back({std::move(values)});
   parts.push_back({Sentences(why_it_pulls_without_slip({model.choice, {answer}}))});
   return parts;
@@ -280,9 +294,11 @@ Report report_on(const Case& question, const std::vector<ModelAnswers>& study) {
     parts = study_parts(study);
   } else {
     for (const ModelAnswers& model : study)
-      for (ReportPart& part : answer_parts(model, model.answers.front())) parts.push_back(std::move(part));
+      for (ReportPart& part : answer_parts(question.scenario.tire, model, model.answers.front()))
+        parts.push_back(std::move(part));
   }
   report.parts.insert(report.parts.end(), std::make_move_iterator(parts.begin()), std::make_move_iterator(parts.end()));
+  if (tells_flexible_efficiency(study)) report.add(Sentences(std::vector<std::string>{carcass_without_loss}));
   if (const std::string errors = errors_in_words(question); !errors.empty())
     report.add(Prose{{errors}}, Told::to_look_at);
   report.add(WarningsHere());
@@ -334,7 +350,7 @@ Report report_on(const Case& question, const std::vector<Explained>& explained) 
   const std::string heading = asked_in_words(question);
   Report report{"Why: " + heading, question.description, heading};
   for (const Explained& one : explained) {
-    for (ReportPart& part : answer_parts({one.choice, {}}, {one.at, one.why.result, ""}))
+    for (ReportPart& part : answer_parts(question.scenario.tire, {one.choice, {}}, {one.at, one.why.result, ""}))
       report.parts.push_back(std::move(part));
     Table forces = forces_table(one.why.result);
     forces.caption = "Budget of forces along the drawbar pull";

@@ -13,6 +13,10 @@
 
 namespace soilbin::compare {
 
+/// Said once where the efficiency or the power of a tire that flattens is told.
+inline constexpr const char* carcass_without_loss =
+    "What a tire loses in flexing is not in the model: real ones take some more torque, the more the softer they are.";
+
 /// A line of an answer: "Sinkage", "20.6 ± 1.0", "mm"; no unit where the value is a sentence.
 struct PrintedValue {
   std::string name, value, unit;

@@ -72,6 +72,11 @@ Table slopes_table(const WheelLimits& answer) {
   return table;
 }
 
+/// Without the error that is not known.
+Estimate without_unknown(const Estimate& estimate) {
+  return {estimate.value, std::isfinite(estimate.std_error) ? estimate.std_error : 0.0};
+}
+
 /// What limits the table's numbers, the steepest slope, the one with little slip.
 std::vector<std::string> words_on_slopes(const WheelLimits& answer) {
   std::vector<std::string> words;
@@ -86,6 +91,13 @@ std::vector<std::string> words_on_slopes(const WheelLimits& answer) {
   }
   words.push_back(steepest_in_words({*answer.steepest, answer.steepest_error}, answer.slopes.back().best.slip));
   words.push_back(within_in_words(answer));
+  if (const SlopeRow& level = answer.slopes.front(); std::isfinite(level.best_spin))
+    words.push_back(fmt::format("Where it pulls most on level ground it turns with {} rad/s at {} m/s.",
+                                number(level.best_spin), number(answer.at.speed, 3)));
+  if (answer.towed)
+    words.push_back(fmt::format("Towed over level ground, without torque, it slips by {} % and is pulled with {} N.",
+                                number(without_unknown(answer.towed->slip), 100),
+                                number(without_unknown(answer.towed->resistance))));
   return words;
 }
 
@@ -104,11 +116,15 @@ Json limits_row(const WheelLimits& answer) {
   row["max_slip"] = answer.max_slip;
   row["steepest_slope_within_max_slip"] = or_null(answer.steepest_within);
   row["std_error"]["steepest_slope_within_max_slip"] = finite(answer.within_error);
+  row["towed"] = answer.towed ? Json{{"slip", estimate_json(answer.towed->slip)},
+                                     {"resistance", estimate_json(answer.towed->resistance)}}
+                              : Json();
   row["slopes"] = list_of(answer.slopes, [](const SlopeRow& slope) {
     return Json{{"longitudinal_incline", slope.slope},
                 {"slip", or_null(slope.slip)},
                 {"largest_pull", slope.best.drawbar_pull},
                 {"slip_of_largest_pull", slope.best.slip},
+                {"spin_of_largest_pull", finite(slope.best_spin)},
                 {"std_error", {{"slip", finite(slope.slip_error)}, {"largest_pull", finite(slope.pull_error)}}}};
   });
   return row;

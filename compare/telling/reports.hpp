@@ -116,6 +116,8 @@ Report report_on(const MeasuredAnswers& answers);
 Report report_on(const DrivenAnswers& answers);
 /// A row for each slope and heading.
 std::string csv_of(const GoMap& map);
+/// Slopes upward, headings to the right, blue where it goes on more than half of the soils.
+std::string svg_of(const GoMap& map);
 
 /// Runs to make before any is made: what they are expected to tell, the runs, each effect with what it is most easily
 /// taken for; the CSV is the campaign's rows to fill in; soilbin-design/1.

@@ -10,6 +10,7 @@
 #include "compare/report/heat_map.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/telling/answer_report.hpp"
 #include "compare/telling/reports.hpp"
 #include "compare/telling/vehicle_words.hpp"
 #include "compare/vehicle/vehicle_answers.hpp"
@@ -75,6 +76,32 @@ struct PowerUnit {
 
 PowerUnit power_unit(double watts) { return std::abs(watts) >= 1000.0 ? PowerUnit{1000.0, "k"} : PowerUnit{1.0, ""}; }
 
+/// "2.98 deg uphill of its travel": an angle to the left; on the level to the left or to the right.
+std::string turned_in_words(double angle, const VehicleCondition& at, const char* of) {
+  const bool left = angle > 0.0, uphill = left == (at.cross_slope > 0.0);
+  const char* way = at.cross_slope == 0.0 ? (left ? "to the left" : "to the right") : uphill ? "uphill" : "downhill";
+  return fmt::format("{} deg {}{}", number(std::abs(angle) / degree), way, of);
+}
+
+/// Depth of the rut that it leaves: that of the deepest wheel; more than that where later wheels count from its floor.
+std::optional<std::string> rut_in_words(const VehicleAnswers& answers) {
+  const SteadyVehicle& v = *answers.steady;
+  std::optional<std::size_t> deepest;
+  bool from_floor = false;
+  for (std::size_t i = 0; i < v.wheels.size(); ++i) {
+    if (v.wheels[i].lifted) continue;
+    if (!deepest || v.wheels[i].result.sinkage.value > v.wheels[*deepest].result.sinkage.value) deepest = i;
+    from_floor |=
+        v.wheels[i].result.at.pass > 1 && std::ranges::any_of(answers.question.effects, [](const EffectChoice& effect) {
+          return bekker_wong::find_form(effect).sinkage_from_rut_floor;
+        });
+  }
+  if (!deepest || !(v.wheels[*deepest].result.sinkage.value > 0.0)) return {};
+  const double error = *deepest < answers.errors.wheels.size() ? answers.errors.wheels[*deepest].sinkage : 0.0;
+  return fmt::format("{}{} mm deep behind it.", from_floor ? "At least " : "",
+                     number({v.wheels[*deepest].result.sinkage.value, told_error(error)}, 1e3));
+}
+
 std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
   std::vector<BackedSentence> said;
   if (answers.steady) {
@@ -96,13 +123,11 @@ std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
     if (answers.power_speed && answers.holds_speed() && answers.fastest && answers.fastest->limit == TravelLimit::power)
       said.push_back({"Power", fmt::format("All of it is used at {} m/s.", number(*answers.power_speed, 3))});
     if (v.crab != 0.0)
-      said.push_back(
-          {"Across", fmt::format("It points {} deg uphill of its travel{}.",
-                                 number(std::copysign(1.0, v.at.cross_slope) * v.crab / degree),
-                                 v.steering != 0.0
-                                     ? fmt::format(", with its steered wheels turned by {} deg more",
-                                                   number(std::copysign(1.0, v.at.cross_slope) * v.steering / degree))
-                                     : "")});
+      said.push_back({"Across", fmt::format("It points {}{}.", turned_in_words(v.crab, v.at, " of its travel"),
+                                            v.steering != 0.0 ? ", with its steered wheels turned by " +
+                                                                    turned_in_words(v.steering, v.at, "")
+                                                              : "")});
+    if (const auto rut = rut_in_words(answers)) said.push_back({"Rut", *rut});
     if (const double arm = std::abs(v.yaw_moment); arm > 1e-6 * answers.question.mass)
       said.push_back({"Yaw moment",
                       fmt::format("{} N m are left to turn it; no steered axle balances them.", number(v.yaw_moment))});
@@ -158,6 +183,12 @@ Table limits_of_vehicle(const VehicleAnswers& answers) {
   return table;
 }
 
+/// A force, or none where it and its error are what the balance of a load leaves.
+Estimate without_rest(const Estimate& force, double load) {
+  const double rest = 1e-9 * load;
+  return std::abs(force.value) < rest && force.std_error < rest ? Estimate{} : force;
+}
+
 Table wheels_table(const VehicleAnswers& answers) {
   Table table{"Wheels",
               {"wheel", "load [N]", "slip [%]", "pull [N]", "torque [N m]", "sinkage [mm]", "contact area [cm^2]",
@@ -174,7 +205,7 @@ Table wheels_table(const VehicleAnswers& answers) {
     table.add({{answers.wheels[i].name, wheel.at_largest_torque ? "at its largest torque" : ""},
                number({wheel.normal_load, told_error(e.normal_load)}),
                number({r.at.slip, told_error(e.slip)}, 100),
-               number({r.drawbar_pull.value, told_error(e.drawbar_pull)}),
+               number(without_rest({r.drawbar_pull.value, told_error(e.drawbar_pull)}, wheel.normal_load)),
                number({r.torque.value, told_error(e.torque)}),
                number({r.sinkage.value, told_error(e.sinkage)}, 1e3),
                number(r.contact_area * 1e4),
@@ -236,6 +267,9 @@ std::vector<std::string> vehicle_remarks(const VehicleAnswers& answers) {
                           [&](const VehicleLimit& limit) { return limit.angle && limit.angle->value > *slides; }))
     said.push_back(fmt::format(
         "From {:.3g} deg on this soil slides by itself (c, phi, at a depth of a wheel's radius).", *slides / degree));
+  if (std::ranges::any_of(answers.wheels,
+                          [](const VehicleWheel& wheel) { return bekker_wong::is_flexible(wheel.scenario.effects); }))
+    said.emplace_back(carcass_without_loss);
   const std::size_t axles = answers.question.axles.size();
   if (axles > 2)
     said.push_back(fmt::format("Loads of {} axles: a rigid frame on {}.", axles,
@@ -455,6 +489,13 @@ std::string vehicle_csv(const VehicleAnswers& answers) {
 }
 
 }  // namespace
+
+std::string svg_of(const GoMap& map) {
+  std::string svg = heat_map_svg(heat_map_of_go(map));
+  svg.insert(svg.find('>') + 1, R"(<rect width="100%" height="100%" fill="#ffffff"/><g font-family="sans-serif">)");
+  svg.insert(svg.rfind("</svg>"), "</g>");
+  return svg;
+}
 
 std::string csv_of(const GoMap& map) {
   std::string text = "slope_deg,heading_deg,chance,chance_se\n";

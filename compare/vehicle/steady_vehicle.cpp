@@ -181,10 +181,14 @@ SteadyWheel SteadyVehicles::free(std::size_t wheel, OperatingCondition at, const
   const bool known = found.rise > 0.0;
   double here = known ? found.slip : from, f = missing(here);
   if (steady.lifted) return steady;
+  const auto rolls_at = [&](double slip) {
+    found.slip = slip;
+    steady.result.torque.value = torque(slip);  // as it is defined, without what the search leaves
+    return steady;
+  };
   const auto between = [&](const gsl::Sample& a, const gsl::Sample& b) {
     found.rise = (b.f - a.f) / (b.x - a.x);
-    found.slip = gsl::bracketed_root(missing, a, b, 1e-15, 0.01 * small * whole, "the slip at a torque");
-    return steady;
+    return rolls_at(gsl::bracketed_root(missing, a, b, 1e-15, 0.01 * small * whole, "the slip at a torque"));
   };
   // By secants from where the last search ended, as long as they come closer.
   for (bool closer = known; closer && std::abs(f) > small * whole;) {
@@ -196,10 +200,7 @@ SteadyWheel SteadyVehicles::free(std::size_t wheel, OperatingCondition at, const
     if (closer) found.rise = (f - before.f) / (here - before.x);
     if (!closer && std::abs(f) > rounding * whole && (f < 0.0) != (before.f < 0.0)) return between(before, {here, f});
   }
-  if (std::abs(f) <= (known ? rounding * whole : 0.0)) {
-    found.slip = here;
-    return steady;
-  }
+  if (std::abs(f) <= (known ? rounding * whole : 0.0)) return rolls_at(here);
   const double direction = f < 0.0 ? 1.0 : -1.0, end = f < 0.0 ? 1.0 : most_braked;
   for (double step = 0.01; here != end; step *= 1.5) {
     const double next = direction > 0 ? std::min(here + step, end) : std::max(here - step, end);

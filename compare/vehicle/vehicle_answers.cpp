@@ -116,138 +116,191 @@ VehicleCondition on(const VehicleCondition& asked, SlopeWay way, double angle) {
   return at;
 }
 
-VehicleLimit steepest(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model,
-                      SlopeWay way) {
-  const SteadyVehicles vehicles(question, wheels, model);
-  const bool braked = way == SlopeWay::down;
-  const double sign = braked ? -1.0 : 1.0, none = -vehicles.weight();
-  VehicleLimit limit;
-  double best_slip = 0.0;  // on `low`
+/// The search for the steepest slope one way. Slopes rise from gentle to steep; on one where it goes it may pull more
+/// than is asked, its spare pull.
+class SteepestSlope {
+ public:
+  /// What is referred to must outlive this.
+  SteepestSlope(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model, SlopeWay way)
+      : question_(question), wheels_(wheels), model_(model), way_(way), vehicles_(question, wheels, model) {}
+
+  VehicleLimit find() {
+    if (!starts()) return limit_;
+    close_in();
+    if (high_ == steepest_asked) {
+      limit_.on_all = true;
+      return limit_;
+    }
+    constexpr double beside = 0.05 * degree;
+    if (!travels(low_ - beside))  // at less slip than that of its largest pull a wheel gives out
+      back_to_where_it_travels();
+    else
+      tell_end();
+    return limit_;
+  }
+
+ private:
+  static constexpr double close_ = 1e-6;  ///< [rad] between the slopes on which it goes and does not
+
+  VehicleCondition on_slope(double angle) const { return on(question_.condition, way_, angle); }
+
   /// What it pulls more than is asked at its best: of all slips, or on the hill at a slip.
-  const auto spare = [&](double angle, const std::optional<double>& about = {}) {
-    const VehicleCondition at = on(question.condition, way, angle);
+  double spare(double angle, const std::optional<double>& about = {}) {
+    const VehicleCondition at = on_slope(angle);
     try {
-      const SteadyVehicle most = vehicles.at_most(at, braked, about);
-      const double left = sign * (most.pull - at.pull);
-      if (left >= 0.0) best_slip = most.slip;
-      return std::max(left, none);
+      const SteadyVehicle most = vehicles_.at_most(at, braked_, about);
+      const double left = sign_ * (most.pull - at.pull);
+      if (left >= 0.0) best_slip_ = most.slip;
+      return std::max(left, none_);
     } catch (const VehicleGaveOut& error) {
-      limit.beyond = as_failure(error);
-      return none;
+      limit_.beyond = as_failure(error);
+      return none_;
     }
-  };
-  const auto spare_at_best_slip = [&](double angle) {
-    const VehicleCondition at = on(question.condition, way, angle);
+  }
+
+  double spare_at_best_slip(double angle) const {
+    const VehicleCondition at = on_slope(angle);
     try {
-      return std::max(sign * (vehicles.at_slip(at, best_slip).pull - at.pull), none);
+      return std::max(sign_ * (vehicles_.at_slip(at, best_slip_).pull - at.pull), none_);
     } catch (const VehicleGaveOut&) {
-      return none;
+      return none_;
     }
-  };
+  }
+
   /// Whether it has a balance at the pull that is asked; else what ends it stands in `beyond`.
-  const auto travels = [&](double angle) {
+  bool travels(double angle) {
     try {
-      vehicles.pulling(on(question.condition, way, angle));
+      vehicles_.pulling(on_slope(angle));
       return true;
     } catch (const VehicleGaveOut& error) {
-      limit.beyond = as_failure(error);
+      limit_.beyond = as_failure(error);
       return false;
     }
-  };
-  double at_low = spare(0.0), at_high = none, low = 0.0, high = steepest_asked;
-  if (at_low < 0.0) {
-    // Not on the level: perhaps on a descent, the gentlest that it travels on.
-    if (way == SlopeWay::across) return limit;
-    constexpr double step = 1.0 * degree, gentle = 20.0 * degree;  // chosen
-    const VehicleFailure on_level = limit.beyond;
-    double descent = step;
-    while (descent < gentle && !travels(braked ? descent : -descent)) descent += step;
-    if (descent >= gentle) {
-      limit.beyond = on_level;
-      return limit;
-    }
-    low = braked ? descent : -descent;
-    if (!braked) high = step - descent;
-    if ((at_low = spare(low)) < 0.0) return limit;
   }
-  constexpr double close = 1e-6;
+
+  /// From level ground; where it does not go there, from the gentlest descent on which it travels. False without one.
+  bool starts() {
+    at_low_ = spare(0.0);
+    if (at_low_ >= 0.0) return true;
+    if (way_ == SlopeWay::across) return false;
+    constexpr double step = 1.0 * degree, gentle = 20.0 * degree;  // chosen
+    const VehicleFailure on_level = limit_.beyond;
+    double descent = step;
+    while (descent < gentle && !travels(braked_ ? descent : -descent)) descent += step;
+    if (descent >= gentle) {
+      limit_.beyond = on_level;
+      return false;
+    }
+    low_ = braked_ ? descent : -descent;
+    if (!braked_) high_ = step - descent;
+    return (at_low_ = spare(low_)) >= 0.0;
+  }
+
   /// Where, from `low` on, what is spare at the best slip there ends, by secants; none where they meet a slope without
   /// a balance.
-  const auto end_at_best_slip = [&]() -> std::optional<double> {
+  std::optional<double> end_at_best_slip() const {
     constexpr int most_secants = 10;
-    gsl::Sample before{low, at_low};
-    double angle = low + at_low / vehicles.weight();
+    gsl::Sample before{low_, at_low_};
+    double angle = low_ + at_low_ / vehicles_.weight();
     for (int i = 0; i < most_secants; ++i) {
-      const gsl::Sample here{std::clamp(angle, low, high), spare_at_best_slip(std::clamp(angle, low, high))};
-      if (std::abs(here.f) <= 0.01 * close * vehicles.weight()) return here.x;
-      if (here.f == none || here.f == before.f) break;
+      const gsl::Sample here{std::clamp(angle, low_, high_), spare_at_best_slip(std::clamp(angle, low_, high_))};
+      if (std::abs(here.f) <= 0.01 * close_ * vehicles_.weight()) return here.x;
+      if (here.f == none_ || here.f == before.f) break;
       angle = here.x - here.f * (here.x - before.x) / (here.f - before.f);
       before = here;
     }
     return {};
-  };
-  bool other_slip = true;  // than the one whose end was looked for
-  double reach = 0.1;      // from a slope on which it goes to the next that is asked, while none is known beyond
-  while (high - low > close) {
-    // At the slip that is best on one slope it goes as far as a slope at or below the steepest, whose best slip is
-    // asked next: Newton's method, by the envelope theorem.
-    const std::optional<double> end = std::exchange(other_slip, false) ? end_at_best_slip() : std::nullopt;
-    if (end && *end - 0.25 * close > low) low = *end - 0.25 * close, at_low = spare_at_best_slip(low);
-    // Elsewhere the chord is near as a rule; else halves: it ends at once where the vehicle tips over or slides.
-    const double chord = at_high > none ? low + (high - low) * at_low / (at_low - at_high) : 0.5 * (low + high);
-    const double margin = 0.1 * (high - low);
-    double middle = std::clamp(chord, low + margin, high - margin);
-    if (end)
-      middle = std::min(*end + 0.25 * close, high);
-    else if (high == steepest_asked)
-      middle = std::min(low + std::exchange(reach, 1.5 * reach), middle);
-    double f = spare(middle, best_slip);
-    if (f < 0.0 && middle - low <= close) f = spare(middle);  // the last word is that of all slips
-    if (f >= 0.0)
-      low = middle, at_low = f, other_slip = true;
-    else
-      high = middle, at_high = f;
   }
-  if (high == steepest_asked) {
-    limit.on_all = true;
-    return limit;
-  }
-  constexpr double beside = 0.05 * degree;
-  if (!travels(low - beside)) {  // at less slip than that of its largest pull a wheel gives out
-    constexpr double back = 0.5 * degree;
-    double beyond = low;
-    while (!travels(low = beyond - back))
-      if ((beyond = low) < -steepest_asked) return limit;
-    while (beyond - low > close) {
-      const double middle = 0.5 * (low + beyond);
-      (travels(middle) ? low : beyond) = middle;
+
+  /// Brings `low`, on which it goes, and `high`, on which it does not, close together.
+  void close_in() {
+    bool other_slip = true;  // than the one whose end was looked for
+    double reach = 0.1;      // from a slope on which it goes to the next that is asked, while none is known beyond
+    while (high_ - low_ > close_) {
+      // At the slip that is best on one slope it goes as far as a slope at or below the steepest, whose best slip is
+      // asked next: Newton's method, by the envelope theorem.
+      const std::optional<double> end = std::exchange(other_slip, false) ? end_at_best_slip() : std::nullopt;
+      if (end && *end - 0.25 * close_ > low_) low_ = *end - 0.25 * close_, at_low_ = spare_at_best_slip(low_);
+      // Elsewhere the chord is near as a rule; else halves: it ends at once where the vehicle tips over or slides.
+      const double chord =
+          at_high_ > none_ ? low_ + (high_ - low_) * at_low_ / (at_low_ - at_high_) : 0.5 * (low_ + high_);
+      const double margin = 0.1 * (high_ - low_);
+      double middle = std::clamp(chord, low_ + margin, high_ - margin);
+      if (end)
+        middle = std::min(*end + 0.25 * close_, high_);
+      else if (high_ == steepest_asked)
+        middle = std::min(low_ + std::exchange(reach, 1.5 * reach), middle);
+      double f = spare(middle, best_slip_);
+      if (f < 0.0 && middle - low_ <= close_) f = spare(middle);  // the last word is that of all slips
+      if (f >= 0.0)
+        low_ = middle, at_low_ = f, other_slip = true;
+      else
+        high_ = middle, at_high_ = f;
     }
-    limit.slip = vehicles.pulling(on(question.condition, way, low)).slip;
-    limit.angle = Estimate{low, not_a_number};
-    return limit;
   }
-  const SteadyVehicle last = vehicles.at_most(on(question.condition, way, low), braked, best_slip);
-  limit.slip = last.slip;
-  limit.angle = Estimate{low, not_a_number};
-  if (at_high == none) {
-    if (limit.beyond.why == GaveOut::tips_over) limit.angle->std_error = 0.0;
-    return limit;
+
+  /// The steepest slope below on which it has a balance at the pull that is asked, without an error.
+  void back_to_where_it_travels() {
+    constexpr double back = 0.5 * degree;
+    double beyond = low_;
+    while (!travels(low_ = beyond - back))
+      if ((beyond = low_) < -steepest_asked) return;
+    while (beyond - low_ > close_) {
+      const double middle = 0.5 * (low_ + beyond);
+      (travels(middle) ? low_ : beyond) = middle;
+    }
+    limit_.slip = vehicles_.pulling(on_slope(low_)).slip;
+    limit_.angle = Estimate{low_, not_a_number};
   }
-  limit.beyond = {why_too_little(last, braked), weakest_wheel(last), ""};
-  // The largest pull changes with soil and slope as the pull at its slip does (the envelope theorem).
-  constexpr double step = 1e-4;
-  try {
-    const double rise = (vehicles.at_slip(on(question.condition, way, low + step), last.slip).pull -
-                         vehicles.at_slip(on(question.condition, way, low - step), last.slip).pull) /
-                        (2 * step);
-    const VehicleNumbers error = errors_of(wheels, 1, [&](const std::vector<VehicleWheel>& changed) {
-      const SteadyVehicles other(question, changed, model);
-      return VehicleNumbers{other.at_slip(on(question.condition, way, low), last.slip).pull};
-    });
-    limit.angle->std_error = error[0] / std::abs(rise);
-  } catch (const VehicleGaveOut&) {  // it ends beside: no error
+
+  /// Slope, slip and what ends it there, where that is the pull with an error.
+  void tell_end() {
+    const SteadyVehicle last = vehicles_.at_most(on_slope(low_), braked_, best_slip_);
+    limit_.slip = last.slip;
+    limit_.angle = Estimate{low_, not_a_number};
+    if (at_high_ == none_) {
+      if (limit_.beyond.why == GaveOut::tips_over) limit_.angle->std_error = 0.0;
+      return;
+    }
+    limit_.beyond = {why_too_little(last, braked_), weakest_wheel(last), ""};
+    limit_.angle->std_error = error_at(last.slip);
   }
-  return limit;
+
+  /// The largest pull changes with soil and slope as the pull at its slip does (the envelope theorem). Not a number
+  /// where a slope beside has no balance.
+  double error_at(double slip) const {
+    constexpr double step = 1e-4;
+    try {
+      const double rise =
+          (vehicles_.at_slip(on_slope(low_ + step), slip).pull - vehicles_.at_slip(on_slope(low_ - step), slip).pull) /
+          (2 * step);
+      const VehicleNumbers error = errors_of(wheels_, 1, [&](const std::vector<VehicleWheel>& changed) {
+        const SteadyVehicles other(question_, changed, model_);
+        return VehicleNumbers{other.at_slip(on_slope(low_), slip).pull};
+      });
+      return error[0] / std::abs(rise);
+    } catch (const VehicleGaveOut&) {
+      return not_a_number;
+    }
+  }
+
+  const VehicleCase& question_;
+  const std::vector<VehicleWheel>& wheels_;
+  const Model& model_;
+  const SlopeWay way_;
+  const SteadyVehicles vehicles_;
+  const bool braked_ = way_ == SlopeWay::down;
+  const double sign_ = braked_ ? -1.0 : 1.0;
+  const double none_ = -vehicles_.weight();  ///< what is spare on a slope without a balance
+  VehicleLimit limit_{};
+  double low_ = 0.0, high_ = steepest_asked;  ///< slopes on which it goes and does not [rad]
+  double at_low_ = 0.0, at_high_ = none_;     ///< what is spare on them [N]
+  double best_slip_ = 0.0;                    ///< on `low`
+};
+
+VehicleLimit steepest(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model,
+                      SlopeWay way) {
+  return SteepestSlope(question, wheels, model, way).find();
 }
 
 }  // namespace

@@ -176,8 +176,8 @@ Gradeability gradeability_of(const VehicleAnswers& answers, const Model& model) 
     if (wheel_motors) return fastest_travel(question, answers.wheels, model, at).limit.value_or(TravelLimit::soil);
     try {
       return not_held_by(question, vehicles.pulling(at)).value_or(TravelLimit::soil);
-    } catch (const VehicleGaveOut&) {
-      return TravelLimit::soil;
+    } catch (const VehicleGaveOut& error) {
+      return error.why() == GaveOut::torque ? TravelLimit::torque : TravelLimit::soil;
     }
   };
   const double on_level = spare_on(0.0);

@@ -197,6 +197,27 @@ TEST(TireFlexibility, PatchAgreesWithBruteForce) {
   }
 }
 
+// In a rut that reloads, P(y) = k (y + h y/(y + e z_p))^n with h = a z_p (1 - exp(-1/p0)) on the second pass: the flat
+// begins at the depth where that is p_g, found here by bisection.
+TEST(TireFlexibility, ACapBeginsWhereAnotherPressureLawReachesIt) {
+  const SoilValues soil = sand();
+  const double load = 800.0, a = 0.6, p0 = 1.5, e = 0.2, theta_1 = 0.8;
+  OperatingCondition at = driven(load);
+  at.pass = 2;
+  const RollingWheel wheel(soft_tire(), soil,
+                           make_effects({{"tire_flexibility", "flat_section", {}},
+                                         {"multipass", "reload", {{"a", a}, {"p0", p0}, {"e", e}}}}));
+  const double k = soil.pressure_modulus(width), z_p = bekker_static_sinkage(soil, radius, width, load),
+               h = -a * z_p * std::expm1(-1 / p0);
+  double low = 0.0, high = radius;
+  for (int i = 0; i < 100; ++i) {
+    const double y = 0.5 * (low + high);
+    (k * std::pow(y + h * y / (y + e * z_p), soil.exponent) < 100e3 ? low : high) = y;
+  }
+  const double d = radius * (1 - std::cos(theta_1)), tread = d * std::pow(1 + std::pow(d / low, 6), -1.0 / 6);
+  EXPECT_NEAR(wheel.at_entry_angle(at, theta_1).patch.deflection, d - tread, 1e-12 * d);
+}
+
 // A wheel that slip has dug in stands as deep as it says: its circle lies deeper by the deflection. The carcass gives
 // way to the stresses that carry the load there, not to those of soil pressed so deep.
 TEST(TireFlexibility, FlattensByTheStressesOfTheWheelThatHasDugItselfIn) {

@@ -363,7 +363,8 @@ TEST(Effects, EveryFormHasALimit) {
   }
 }
 
-// A carcass has its closed form beside effects that leave the pressure alone: those that don't say so.
+// A carcass has its closed form beside effects that leave the pressure alone, and one of the depth alone beside those
+// that look at nothing else: what each effect says of itself.
 TEST(Effects, ThatChangeThePressureSayThatTheyDo) {
   const Setting& s = settings().front();
   const std::optional<Bin> in_bin = bin;
@@ -384,7 +385,14 @@ TEST(Effects, ThatChangeThePressureSayThatTheyDo) {
     press(pressed, outline, around);
     const bool changes = !std::ranges::equal(plain.of(&ContactPatch::sigma), pressed.of(&ContactPatch::sigma));
     change += changes;
-    EXPECT_TRUE(effects.front()->presses() || !changes) << key(form);
+    const PressureLaw law = effects.front()->pressure_law();
+    EXPECT_TRUE(law != PressureLaw::declared || !changes) << key(form);
+    ContactPatch elsewhere = plain;
+    elsewhere.angles.entry = 0.8;
+    for (double& depth : elsewhere.of(&ContactPatch::circle_depth)) depth *= 1.5;
+    press(elsewhere, outline, around);
+    const bool by_place = !std::ranges::equal(pressed.of(&ContactPatch::sigma), elsewhere.of(&ContactPatch::sigma));
+    EXPECT_EQ(law == PressureLaw::by_place, by_place) << key(form);
   }
   EXPECT_GE(change, 5);
 }

@@ -40,6 +40,23 @@ TEST(Limits, TheSlipFoundGivesThePullAskedFor) {
   }
 }
 
+// On firm and on loose soil, on the level and on a slope: braked by no torque, the wheel resists.
+TEST(Limits, AFreeWheelHasNoTorqueAndResists) {
+  for (const double load : {100.0, 400.0})
+    for (const double slope : {0.0, 5 * degree}) {
+      const RollingWheel wheel = wheel_on(bed::sand());
+      OperatingCondition at = bed::driven(load);
+      at.longitudinal_incline = slope;
+      const std::optional<double> slip = free_slip(wheel, at);
+      ASSERT_TRUE(slip);
+      EXPECT_LT(*slip, 0.0);
+      at.slip = *slip;
+      const Reading free = wheel.roll(at).reading;
+      EXPECT_NEAR(free.torque, 0.0, 1e-9 * load * wheel.tire().radius);
+      EXPECT_LT(free.drawbar_pull, 0.0);
+    }
+}
+
 // Steep downhill even half braked wheels are pulled along: the slip lies below -0.5, or there is none.
 TEST(Limits, ASteepDescentIsBrakedFurtherOrNotHeld) {
   const RollingWheel wheel = wheel_on(bed::sand());

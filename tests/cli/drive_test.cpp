@@ -396,6 +396,27 @@ TEST(LimitsCommand, AStandardErrorIsTheChangeByOneStandardDeviation) {
   EXPECT_NEAR(row["std_error"]["steepest_slope"].get<double>() /
                   half_change([](const auto& of) { return of["steepest_slope"]; }),
               1.0, 0.01);
+  for (const char* of_towed : {"slip", "resistance"})
+    EXPECT_NEAR(row["towed"][of_towed]["std_error"].get<double>() /
+                    half_change([&](const auto& of) { return of["towed"][of_towed]["value"]; }),
+                1.0, 0.01)
+        << of_towed;
+}
+
+// What it slips by and resists with is the answer at that slip; the angular speed is that of its travel.
+TEST(LimitsCommand, ATowedWheelTakesNoTorque) {
+  const std::string asked = " --tire rover-wheel --soil dry-sand --load 80N --speed 0.3m/s";
+  const Outcome run = soilbin("limits" + asked);
+  EXPECT_THAT(run.out, AllOf(HasSubstr("Towed over level ground, without torque, it slips by -"),
+                             HasSubstr(" rad/s at 0.300 m/s.")));
+  const nlohmann::json row = soilbin("limits" + asked + " --json").json()["rows"][0], level = row["slopes"][0];
+  const nlohmann::json free =
+      soilbin(fmt::format("estimate{} --slip {:.17g} --json", asked, row["towed"]["slip"]["value"].get<double>()))
+          .json()["rows"][0];
+  EXPECT_NEAR(free["torque"].get<double>(), 0.0, 1e-8);
+  EXPECT_NEAR(-free["drawbar_pull"].get<double>(), row["towed"]["resistance"]["value"].get<double>(), 1e-9);
+  EXPECT_NEAR(level["spin_of_largest_pull"].get<double>(),
+              0.3 / 0.09 / (1 - level["slip_of_largest_pull"].get<double>()), 1e-9);
 }
 
 // With 64.68 N the rover's wheel pulls most at 100 % slip, where it climbs nothing; with 80 N at less.

@@ -29,6 +29,29 @@ TEST(Estimate, FlagsAloneAnswerWithUnitsAndErrors) {
   EXPECT_EQ(r.err, "");
 }
 
+// M w with w = v/(r (1 - s)); on level ground the efficiency is the pull over the energy a metre.
+TEST(Estimate, PowerAndEnergyAreThoseOfTorqueAndRotation) {
+  const std::string asked = "estimate " + wheel + "--slip 40% --speed 0.5m/s";
+  const nlohmann::json row = soilbin(asked + " --json").json()["rows"][0];
+  const double energy = row["torque"].get<double>() / (0.11 * (1 - 0.4));
+  EXPECT_NEAR(row["energy_per_metre"].get<double>(), energy, 1e-12 * energy);
+  EXPECT_NEAR(row["power"].get<double>(), 0.5 * energy, 1e-12 * energy);
+  EXPECT_NEAR(row["tractive_efficiency"].get<double>(), row["drawbar_pull"].get<double>() / energy, 1e-12);
+  EXPECT_THAT(soilbin(asked).out,
+              ContainsRegex("Power +[0-9.]+ ± [0-9.]+ W at 0.500 m/s, [0-9.]+ ± [0-9.]+ J a metre"));
+  EXPECT_THAT(soilbin("estimate " + wheel + "--slip 100%").out, testing::Not(HasSubstr("Power")));
+}
+
+// A belt without losses has too high an efficiency; a rigid wheel has nothing to lose.
+TEST(Estimate, SaysOnceThatACarcassLosesNothing) {
+  const std::string asked = "estimate --soil sandy-loam --tire 14.00R20 --load 20kN --slip 10%,20% ",
+                    said = "What a tire loses in flexing is not in the model";
+  const std::string flexible = soilbin(asked).out;
+  EXPECT_NE(flexible.find(said), std::string::npos);
+  EXPECT_EQ(flexible.find(said), flexible.rfind(said));
+  EXPECT_THAT(soilbin(asked + "--rigid").out, testing::Not(HasSubstr(said)));
+}
+
 // Cullinan sand has beds of 1390, 1511 and 1538 kg/m^3; its file asks about the middle one.
 TEST(Estimate, ADensityPicksTheBedOfASoilThatHasSeveral) {
   const std::string sand = "estimate --soil cullinan-sand --radius 600mm --width 350mm --load 20kN --slip 20% --json ";

@@ -100,6 +100,12 @@ TEST(List, EveryShelfAndTheCatalogue) {
     EXPECT_GT(json[what].size(), 2U) << what;
   }
   EXPECT_THAT(soilbin("list effects").out, HasSubstr("theta_c = 5.73 deg, from 0 deg to 34.38 deg"));
+  for (const auto& form : soilbin("list effects --json").json()["effects"]) {
+    const std::string name = form["form"];
+    EXPECT_EQ(form["sinkage_from_rut_floor"].get<bool>(),
+              form["id"] == "multipass" && name != "rut_power" && name != "reload_from_surface")
+        << name;
+  }
   EXPECT_THAT(soilbin("list soils").out, AllOf(HasSubstr(" 1.04 ± 0.10* "), HasSubstr("*: an assumed standard dev")));
   EXPECT_THAT(soilbin("list soil").err, HasSubstr("did you mean 'soils'?"));
 }

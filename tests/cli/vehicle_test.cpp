@@ -79,6 +79,9 @@ TEST(SlowVehicleCommand, SavesTheChanceToGo) {
   EXPECT_GE(map.at("chance")[0][0].at("value").get<double>(), map.at("chance")[7][0].at("value").get<double>());
   EXPECT_THAT(text_of(file), testing::StartsWith("slope_deg,heading_deg,chance,chance_se\n0,0,"));
   EXPECT_EQ(soilbin("vehicle " + rover + " --samples 4").status, 2);
+  const std::string picture = (scratch / "map.png").string();
+  ASSERT_EQ(soilbin("vehicle " + rover + " --samples 1 --map '" + picture + "'").status, 0);
+  EXPECT_THAT(text_of(picture), testing::StartsWith("\x89PNG"));
 }
 
 const std::string climbing_rover = R"(format: soilbin-vehicle-case/1

@@ -94,7 +94,7 @@ TEST(Page, EscapesAndClosesWhatItOpens) {
   report.add(Sentences(std::vector<BackedSentence>{{"Name", "text & more"}, {"", "plain"}}));
   report.add("First", KeyFigures{{{"4 N", "pull"}}});
   report.add("Second", Items{{"<b>"}});
-  report.add(Table{"caption", {"a", "b"}, {}, {{"x<y", "1"}}});
+  report.add(Table{"caption", {"a", "b"}, {}, {{"x<y", {"1", "a note"}}}});
   report.add(Fold{"more", [] { return std::vector<ReportPart>{{Code{"soilbin run <study>"}}}; }});
   report.add(Figure(Sheet{"", {Plot{"a", {}, {}, {line("s", {1, 2})}}}, Palette::ordered}, "caption"));
   const std::string whole = page_of(report, {}), html = whole.substr(0, whole.find("<script"));
@@ -103,6 +103,7 @@ TEST(Page, EscapesAndClosesWhatItOpens) {
               count(html, std::string("</") + tag + ">"))
         << tag;
   EXPECT_THAT(html, HasSubstr("x&lt;y"));
+  EXPECT_THAT(html, HasSubstr("1 <small>a note</small>"));
   EXPECT_THAT(html, HasSubstr("&lt;b&gt;"));
   EXPECT_THAT(html, HasSubstr("href=\"#part-2\""));
 }

@@ -134,6 +134,21 @@ TEST(VehicleSpeed, TheSteepestSlopeAtASpeedIsTheTorqueCurvesThere) {
   }
 }
 
+// Motors of a largest torque and more power than it takes: at a speed too the slope ends by the torque, where
+// sin(slope) + 0.1 cos(slope) of the weight is all that they push with.
+TEST(VehicleSpeed, TheSteepestSlopeAtASpeedEndsByALargestTorqueAsTheSteepestDoes) {
+  VehicleCase vehicle = cart();
+  vehicle.drive_line = DriveLine::motors, vehicle.power = 1e6;
+  for (VehicleAxle& axle : vehicle.axles) axle.largest_torque = 80.0;
+  const VehicleAnswers answers = answers_of(vehicle, wheels_of(vehicle), firm);
+  const double slope =
+      std::asin(4 * 80.0 / radius / weight_of(vehicle) / std::hypot(1.0, resists)) - std::atan(resists);
+  ASSERT_TRUE(answers.gradeability && answers.gradeability->angle);
+  EXPECT_NEAR(answers.gradeability->angle->value, slope, 1e-4);
+  EXPECT_EQ(answers.up.beyond.why, GaveOut::torque);
+  EXPECT_EQ(answers.gradeability->limit, TravelLimit::torque);
+}
+
 TEST(VehicleSpeed, OneTooSlowForItsTorqueCurveIsNotHeldThoughAFasterOneIs) {
   // T rises from 25 N m at 10 rad/s to 100 at 100: at 0.3 m/s the motor gives 25, at 3 m/s 100.
   VehicleCase vehicle = cart();
