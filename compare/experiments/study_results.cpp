@@ -34,7 +34,7 @@ void add_runs(Json& row, const SidePoint& runs) {
 
 /// rows_json, with what the runs of grains say of themselves and what the size of the grains does to their answers.
 Json rows_with_runs(const Case& question, const StudyResults& results) {
-  Json rows = rows_json(results.study);
+  Json rows = rows_json(question.scenario.tire, results.study);
   auto row = rows.begin();
   for (const ModelAnswers& model : results.study) {
     const std::vector<SidePoint> points = points_of(model, results);

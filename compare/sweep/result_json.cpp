@@ -168,26 +168,16 @@ Json condition_schema() {
   return properties;
 }
 
-Json rows_json(const std::vector<ModelAnswers>& study) {
+Json rows_json(const Tire& tire, const std::vector<ModelAnswers>& study) {
   Json rows = Json::array();
   for (const ModelAnswers& model : study)
     for (const Answer& answer : model.answers) {
       Json row = {{"model", std::string(word_of(model.choice.model))}, {"label", model.choice.label}};
       row.update(to_json(answer));
-      rows.push_back(std::move(row));
-    }
-  return rows;
-}
-
-Json rows_json(const Tire& tire, const std::vector<ModelAnswers>& study) {
-  Json rows = rows_json(study);
-  auto row = rows.begin();
-  for (const ModelAnswers& model : study)
-    for (const Answer& answer : model.answers) {
       if (answer.result)
         if (const auto taken = power_of(tire, *answer.result))
-          (*row)["power"] = taken->power.value, (*row)["energy_per_metre"] = taken->energy.value;
-      ++row;
+          row["power"] = taken->power.value, row["energy_per_metre"] = taken->energy.value;
+      rows.push_back(std::move(row));
     }
   return rows;
 }

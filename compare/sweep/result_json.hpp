@@ -26,10 +26,8 @@ Answer answer_from_json(const Json& row, const std::string& place);
 /// "properties" of a JSON Schema for what to_json writes of a condition.
 Json condition_schema();
 
-/// Every answer of every model as a flat list; each row names its model.
-Json rows_json(const std::vector<ModelAnswers>& study);
-
-/// As that, with power [W] and energy a metre [J/m] of the wheel.
+/// Every answer of every model as a flat list; each row names its model, and has power [W] and energy a metre [J/m] of
+/// the wheel.
 Json rows_json(const Tire& tire, const std::vector<ModelAnswers>& study);
 
 /// soilbin-run/1 with these rows, as yet without warnings.

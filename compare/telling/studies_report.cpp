@@ -344,7 +344,8 @@ Json studies_json(const std::vector<StudyPart>& studies, const std::vector<Campa
   return {{"format", "soilbin-report/1"},
           {"studies", list_of(studies,
                               [](const StudyPart& part) {
-                                Json study = run_json(part.question, rows_json(part.study));
+                                Json study =
+                                    run_json(part.question, rows_json(part.question.scenario.tire, part.study));
                                 add_warnings(study, {});  // the page's own stand beside it
                                 return study;
                               })},

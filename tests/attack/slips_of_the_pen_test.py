@@ -63,7 +63,7 @@ class SlipsOfThePen(Attack):
     def test_words_that_another_flag_means(self):
         self.expect(2, "--radius takes half of it", "estimate", "--diameter", "220mm")
         self.expect(2, "bekker_wong is the analytic wheel, dem the grains", "run", "rover-slip", "--model", "grains")
-        self.expect(2, "these have: cmu-sand, nakanishi-sand, paper-sand", "run", "rover-slip", "--model", "dem", "--dry-run")
+        self.expect(2, "these have: cmu-sand, cullinan-sand-24mm, nakanishi-sand", "run", "rover-slip", "--model", "dem", "--dry-run")
 
 
 if __name__ == "__main__":
