@@ -74,10 +74,11 @@ std::optional<double> slip_for_pull(const RollingWheel& wheel, const OperatingCo
     const double here = std::min(slip, 1.0), value = spare(here);
     if (value >= 0.0) {
       if (!std::isfinite(at_before)) {
-        before = first_with_value(spare, before, here);
-        if (spare(before) > 0.0) return {};
+        before = first_with_value(spare, before, here), at_before = spare(before);
+        if (at_before > 0.0) return {};
       }
-      return gsl::bracketed_root(spare, before, here, 1e-12, 1e-10 * at.load, "the slip for a pull");
+      return gsl::bracketed_root(spare, {before, at_before}, {here, value}, 1e-12, 1e-10 * at.load,
+                                 "the slip for a pull");
     }
     before = here, at_before = value;
   }
@@ -100,7 +101,7 @@ std::optional<double> free_slip(const RollingWheel& wheel, OperatingCondition at
       const double here = std::clamp(before + step, most_braked, 1.0), value = torque(here);
       if (here == before) return {};
       if ((value > 0.0) != (at_before > 0.0))
-        return gsl::bracketed_root(torque, std::min(before, here), std::max(before, here), 1e-12,
+        return gsl::bracketed_root(torque, {before, at_before}, {here, value}, 1e-12,
                                    1e-10 * at.load * wheel.tire().radius, "the slip of a free wheel");
       before = here, at_before = value;
     }

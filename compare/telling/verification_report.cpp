@@ -54,7 +54,7 @@ Report report_on(std::span<const dem::VerificationRow> rows) {
   report.add(Sentences(std::vector<std::string>{met + "."}), Told::to_look_at);
   report.add("Cases", rows_table(rows, true), Told::to_look_at);
   report.add(rows_table(rows, false), Told::on_terminals);
-  report.notes = {met};
+  report.add(Prose{{met}}, Told::on_terminals);
   report.data = [rows] { return rows_json(rows); };
   return report;
 }
