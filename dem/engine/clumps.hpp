@@ -76,6 +76,9 @@ ClumpShape shape_of(const Grains& grains, const Clumps& clumps, std::uint32_t in
 /// The mass of a grain, or of its clump shared evenly among the spheres [kg].
 double mass_share(const Grains& grains, const Clumps& clumps, std::size_t row);
 
+/// About an axis of any direction, on average [kg m^2]: what the contacts of its spheres know of it.
+inline double mean_inertia(const Clump& clump) { return (clump.inertia.x + clump.inertia.y + clump.inertia.z) / 3; }
+
 /// What a clump feels: the loads of its spheres, row by row in `loads`, about its centre of mass.
 Load load_of(const Clumps& clumps, const Clump& clump, std::span<const Load> loads);
 /// How that and gravity change its motion at once.

@@ -13,6 +13,7 @@
 #include <limits>
 #include <vector>
 
+#include "dem/engine/clumps.hpp"
 #include "dem/engine/grains.hpp"
 #include "dem/engine/pair_list.hpp"
 #include "dem/engine/surface_contacts.hpp"
@@ -36,14 +37,17 @@ struct BroughtOnSurface {
 
 struct LetGo {
   GrainId grain = 0;
-  double mass = 1;  ///< [kg]
+  double mass = 1;  ///< [kg]; of a clump's sphere the clump's
 };
 
+/// `leaves` and `stays` are asked of a clump once, with its first sphere's id and the position and velocity of its
+/// centre of mass, and hold for all its spheres. Absent: nobody.
 struct Exchange {
-  std::function<bool(GrainId, const Motion&)> leaves;  ///< absent: nobody
-  std::function<bool(GrainId, const Motion&)> stays;   ///< who is held from now on; absent: nobody
-  std::vector<LetGo> let_go;                           ///< spheres that were held; they begin at rest
-  std::vector<NewGrain> enters;                        ///< with ids of their own, at rest
+  std::function<bool(GrainId, const Motion&)> leaves;
+  std::function<bool(GrainId, const Motion&)> stays;  ///< who is held from now on
+  std::vector<LetGo> let_go;                          ///< spheres that were held; they begin at rest
+  std::vector<NewGrain> enters;                       ///< with ids of their own, at rest
+  Clumps clumps;  ///< that come in: NewGrain::clump counts them, members tell ids among `enters` and no rows
   std::vector<BroughtContact> contacts;
   std::vector<BroughtOnSurface> on_surfaces;  ///< of one grain in the order of bodies and their surfaces
 };

@@ -178,6 +178,12 @@ void half_step_back(World& world) {
   world.state.new_grains.clear();
 }
 
+/// It stays where it is from now on.
+void hold(Grains& grains, std::size_t row) {
+  grains.motion[row].velocity = grains.spin[row].rate = {};
+  grains.motion[row].inverse_mass = grains.spin[row].inverse_inertia = 0;
+}
+
 /// Brings in what was added or changed since the last step.
 void settle_changes(World& world) {
   check_bodies(world);  // anybody may have changed them
@@ -291,7 +297,7 @@ GrainId Simulation::add_clump(const ClumpShape& shape, const ClumpMotion& motion
                   .velocity = motion.velocity + cross(motion.spin, arm),
                   .spin = motion.spin,
                   .clump = number,
-                  .inertia = (clump.inertia.x + clump.inertia.y + clump.inertia.z) / 3});
+                  .inertia = mean_inertia(clump)});
   }
   note_change(s);
   return first;
@@ -354,10 +360,7 @@ std::size_t Simulation::hold_grains(const std::function<bool(const GrainNow&)>& 
   if (rows.empty()) return 0;
   wake_all(world_.state);
   with_energy_counted(world_, [&] {
-    for (const std::size_t row : rows) {
-      all.motion[row].velocity = all.spin[row].rate = {};
-      all.motion[row].inverse_mass = all.spin[row].inverse_inertia = 0;
-    }
+    for (const std::size_t row : rows) hold(all, row);
     search(world_);
   });
   return rows.size();
@@ -384,6 +387,16 @@ class RowsById {
   std::unordered_map<GrainId, std::uint32_t> rows_;
 };
 
+/// Appends clumps whose spheres have rows.
+void append(Clumps& to, const Clumps& clumps, const RowsById& rows) {
+  const auto first = static_cast<std::uint32_t>(to.members.size());
+  for (Clump clump : clumps.all) {
+    clump.first += first;
+    to.all.push_back(clump);
+  }
+  for (const ClumpMember& member : clumps.members) to.members.push_back({member.id, member.arm, rows[member.id]});
+}
+
 /// Appends contacts that have been made to a list that the next search takes them from.
 void append_made(PairList& pairs, const std::vector<BroughtContact>& contacts, const RowsById& rows,
                  const Grains& grains) {
@@ -406,7 +419,6 @@ void append_made(PairList& pairs, const std::vector<BroughtContact>& contacts, c
 
 void Simulation::exchange(const Exchange& what) {
   State& s = world_.state;
-  if (!s.clumps.all.empty()) throw InputError("grains of several spheres are not exchanged");
   settle_changes(world_);
   for (const NewGrain& grain : what.enters)
     if (!world_.setup.domain.contains(grain.position)) throw InputError(outside(grain.position));
@@ -415,23 +427,39 @@ void Simulation::exchange(const Exchange& what) {
     RowsById rows(all);
     std::vector<std::uint8_t> gone(all.count());
     for (std::size_t row = 0; row < all.count(); ++row) {
-      Motion& grain = all.motion[row];
-      gone[row] = what.leaves && what.leaves(all.id[row], grain);
-      if (gone[row] || grain.held() || !what.stays || !what.stays(all.id[row], grain)) continue;
-      grain.velocity = all.spin[row].rate = {};
-      grain.inverse_mass = all.spin[row].inverse_inertia = 0;
+      if (all.clump[row] != lone) continue;
+      gone[row] = what.leaves && what.leaves(all.id[row], all.motion[row]);
+      if (!gone[row] && !all.motion[row].held() && what.stays && what.stays(all.id[row], all.motion[row]))
+        hold(all, row);
+    }
+    for (Clump& clump : s.clumps.all) {
+      const std::uint32_t row = s.clumps.row_of(clump);
+      Motion centre = all.motion[row];
+      centre.position = clump.motion.position, centre.velocity = clump.motion.velocity;
+      const bool leaves = what.leaves && what.leaves(all.id[row], centre);
+      const bool stays = !leaves && !centre.held() && what.stays && what.stays(all.id[row], centre);
+      if (stays) clump.motion.velocity = clump.motion.spin = {};
+      for (const ClumpMember& member : s.clumps.of(clump)) {
+        gone[member.row] = leaves;
+        if (stays) hold(all, member.row);
+      }
     }
     for (const LetGo& let_go : what.let_go) {
       const std::uint32_t row = rows[let_go.grain];
       const double radius = all.motion[row].radius;
       all.motion[row].inverse_mass = 1 / let_go.mass;
-      all.spin[row].inverse_inertia = 1 / (0.4 * let_go.mass * radius * radius);
+      const bool free_clump = all.clump[row] != lone && let_go.mass < held_mass;
+      all.spin[row].inverse_inertia =
+          1 / (free_clump ? mean_inertia(s.clumps.all[all.clump[row]]) : 0.4 * let_go.mass * radius * radius);
     }
-    for (const NewGrain& grain : what.enters) {
+    const auto clumps_before = static_cast<std::uint32_t>(s.clumps.all.size());
+    for (NewGrain grain : what.enters) {
       rows.add(grain.id, static_cast<std::uint32_t>(all.count()));
+      if (grain.clump != lone) grain.clump += clumps_before;
       all.add(grain);
       s.next_id = std::max(s.next_id, grain.id + 1);
     }
+    append(s.clumps, what.clumps, rows);
     gone.resize(all.count());
     append_made(s.pairs, what.contacts, rows, all);
     if (s.surfaces.empty()) s.surfaces.resize(1);

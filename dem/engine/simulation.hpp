@@ -46,8 +46,8 @@ class Simulation {
   /// bed, hold a slice of it, remove the rest.
   std::size_t hold_grains(const std::function<bool(const GrainNow&)>& which);
   /// Lets grains leave, be held, be let go and come in between two steps, with one search for all of it. The ledger
-  /// counts the energy that comes and goes. Throws InputError for clumps, for an id that is taken or unknown, and for a
-  /// place outside the domain.
+  /// counts the energy that comes and goes. Throws InputError for an id that is taken or unknown, and for a place
+  /// outside the domain.
   void exchange(const Exchange& what);
   /// Gives the body's index. Throws InputError for an unknown material or a mass or inertia that isn't positive.
   int add_body(Body body);

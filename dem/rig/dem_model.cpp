@@ -44,8 +44,6 @@ void DemModel::check(const Scenario& scenario) const {
   const BedRecipe asked = recipe(scenario);
   if (settings_.rig.patch && settings_.lammps)
     throw InputError("a moving patch is simulated by soilbin's own engine alone\n  hint: leave out --engine lammps");
-  if (settings_.rig.patch && asked.soil.shape != GrainShape::sphere)
-    throw InputError("a moving patch takes grains of one sphere\n  hint: shape: sphere, or a fixed bed");
   way_in_bin(asked.size, scenario.tire, settings_.rig);
   if (!(settings_.rig.dt >= 0))
     throw InputError(fmt::format("a time step of {} s: above 0, or 0 for the longest that is safe", settings_.rig.dt));

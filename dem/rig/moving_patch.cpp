@@ -34,9 +34,7 @@ Tile tile_of(const Setup& setup, const State& state) {
   const Domain& domain = setup.domain;
   if (!domain.periodic[0] || domain.periodic[1] || domain.periodic[2] || domain.lower.x != 0)
     throw InputError("a tile repeats itself along x alone, from x = 0 on");
-  if (!state.clumps.all.empty())
-    throw InputError("a moving patch takes grains of one sphere\n  hint: shape: sphere, or a fixed bed");
-  Tile tile{.length = domain.upper.x, .grains = {}, .contacts = {}, .on_surfaces = {}};
+  Tile tile{.length = domain.upper.x, .grains = {}, .contacts = {}, .on_surfaces = {}, .clumps = state.clumps};
   std::vector<std::int32_t> wraps;  // tiles that a grain stands on from where it is told
   for (std::size_t k = 0; k < state.grains.count(); ++k) {
     const Motion& grain = state.grains.motion[k];
@@ -44,7 +42,18 @@ Tile tile_of(const Setup& setup, const State& state) {
     const double tiles = std::floor(at.x / tile.length);
     at.x -= tiles * tile.length;
     wraps.push_back(static_cast<std::int32_t>(tiles));
-    tile.grains.push_back({at, grain.radius, 1 / grain.inverse_mass, state.grains.material[k]});
+    tile.grains.push_back({at, grain.radius, 1 / grain.inverse_mass, state.grains.material[k], state.grains.clump[k]});
+  }
+  for (Clump& clump : tile.clumps.all) {
+    ClumpMotion& motion = clump.motion;
+    motion.position.x -= std::floor(motion.position.x / tile.length) * tile.length;
+    motion.velocity = motion.spin = {};
+    for (const ClumpMember& member : tile.clumps.of(clump)) {
+      Vec3& at = tile.grains[member.row].position;
+      const Vec3 placed = motion.position + motion.rotation(member.arm);
+      wraps[member.row] += static_cast<std::int32_t>(std::nearbyint((at.x - placed.x) / tile.length));
+      at = placed;
+    }
   }
   const PairList& pairs = state.pairs;
   for (std::size_t pair = 0; pair < pairs.first.size(); ++pair) {
@@ -64,10 +73,17 @@ Tile tile_of(const Setup& setup, const State& state) {
   return tile;
 }
 
+double Tile::largest() const {
+  double largest = 0;
+  for (const TileGrain& grain : grains) largest = std::max(largest, grain.radius);
+  for (const ClumpMember& member : clumps.members)
+    largest = std::max(largest, dem::length(member.arm) + grains[member.row].radius);
+  return largest;
+}
+
 MovingPatch::MovingPatch(Tile tile, const PatchSize& size, KeepsRut keeps)
     : tile_(std::move(tile)), size_(size), keeps_(keeps == KeepsRut::yes) {
-  double largest = 0;
-  for (const TileGrain& grain : tile_.grains) largest = std::max(largest, grain.radius);
+  const double largest = tile_.largest();
   if (!(size_.slab >= 2 * largest) || !(size_.slab <= tile_.length))
     throw InputError(
         fmt::format("a patch that advances by {:.4g} m: from the largest grain's diameter, {:.4g} m, to the tile's "
@@ -79,6 +95,10 @@ Vec3 MovingPatch::place(std::int64_t image, std::uint32_t grain) const {
   Vec3 at = tile_.grains[grain].position;
   at.x += static_cast<double>(image) * tile_.length;
   return at;
+}
+
+double MovingPatch::x_of(std::int64_t image, std::uint32_t grain) const {
+  return tile_.x_of(grain) + static_cast<double>(image) * tile_.length;
 }
 
 GrainId MovingPatch::id(std::int64_t image, std::uint32_t grain) const {
@@ -99,15 +119,14 @@ double MovingPatch::grains() const {
 
 namespace {
 
-/// Copies of the tile's grains with from <= x < to: visit(image, grain, place).
+/// Copies of the tile's grains with from <= x < to, sphere by sphere: visit(image, grain, x).
 template <class Visit>
 void visit_between(const Tile& tile, double from, double to, const Visit& visit) {
   const auto tile_at = [&](double x) { return static_cast<std::int64_t>(std::floor(x / tile.length)); };
   for (std::int64_t image = tile_at(from) - 1; image <= tile_at(to); ++image)
     for (std::uint32_t grain = 0; grain < tile.grains.size(); ++grain) {
-      Vec3 at = tile.grains[grain].position;
-      at.x += static_cast<double>(image) * tile.length;
-      if (at.x >= from && at.x < to) visit(image, grain, at);
+      const double x = tile.x_of(grain) + static_cast<double>(image) * tile.length;
+      if (x >= from && x < to) visit(image, grain, x);
     }
 }
 
@@ -121,13 +140,13 @@ void MovingPatch::bring_contacts(double from, double to, Exchange& change,
   const auto tile_at = [&](double x) { return static_cast<std::int64_t>(std::floor(x / tile_.length)); };
   for (std::int64_t image = tile_at(from) - reach_in_tiles; image <= tile_at(to) + reach_in_tiles; ++image) {
     for (const TileContact& contact : tile_.contacts) {
-      const double first = place(image, contact.first).x, second = place(image + contact.image, contact.second).x;
+      const double first = x_of(image, contact.first), second = x_of(image + contact.image, contact.second);
       if (between(first) && between(second) && wanted(first, second))
         change.contacts.push_back(
             {id(image, contact.first), id(image + contact.image, contact.second), contact.memory});
     }
     for (const TileOnSurface& contact : tile_.on_surfaces) {
-      const double x = place(image, contact.grain).x;
+      const double x = x_of(image, contact.grain);
       if (!between(x) || !wanted(x, x)) continue;
       const auto& m = contact.memory;
       change.on_surfaces.push_back({id(image, contact.grain),
@@ -141,14 +160,36 @@ void MovingPatch::bring_contacts(double from, double to, Exchange& change,
 
 /// Copies with from <= x < to come in; those with free_from <= x < free_to are free, the others held.
 void MovingPatch::bring_grains(double from, double to, double free_from, double free_to, Exchange& change) const {
-  visit_between(tile_, from, to, [&](std::int64_t image, std::uint32_t k, const Vec3& at) {
-    const TileGrain& grain = tile_.grains[k];
-    change.enters.push_back({.id = id(image, k),
-                             .radius = grain.radius,
-                             .mass = at.x >= free_from && at.x < free_to ? grain.mass : held_mass,
-                             .material = static_cast<std::uint8_t>(grain.material),
-                             .position = at});
+  visit_between(tile_, from, to, [&](std::int64_t image, std::uint32_t k, double x) {
+    const auto bring = [&](std::uint32_t number, std::uint32_t clump) {
+      const TileGrain& grain = tile_.grains[number];
+      const double mass = x >= free_from && x < free_to ? grain.mass : held_mass;
+      change.enters.push_back(
+          {.id = id(image, number),
+           .radius = grain.radius,
+           .mass = mass,
+           .material = static_cast<std::uint8_t>(grain.material),
+           .position = place(image, number),
+           .clump = clump,
+           .inertia = clump == lone || mass == held_mass ? 0 : mean_inertia(change.clumps.all[clump])});
+    };
+    const std::uint32_t clump = tile_.grains[k].clump;
+    if (clump == lone) return bring(k, lone);
+    const Clump& whole = tile_.clumps.all[clump];
+    if (tile_.clumps.row_of(whole) != k) return;  // all its spheres come with the first
+    bring_clump(image, whole, change);
+    for (const ClumpMember& member : tile_.clumps.of(whole))
+      bring(member.row, static_cast<std::uint32_t>(change.clumps.all.size() - 1));
   });
+}
+
+void MovingPatch::bring_clump(std::int64_t image, const Clump& clump, Exchange& change) const {
+  Clump comes = clump;
+  comes.motion.position.x += static_cast<double>(image) * tile_.length;
+  comes.first = static_cast<std::uint32_t>(change.clumps.members.size());
+  change.clumps.all.push_back(comes);
+  for (const ClumpMember& member : tile_.clumps.of(clump))
+    change.clumps.members.push_back({id(image, member.row), member.arm, 0});
 }
 
 Simulation MovingPatch::open(Setup setup, const State& tile, double way) const {
@@ -189,8 +230,7 @@ void MovingPatch::advance(Simulation& simulation) {
   note_disturbance(simulation, held_from - size_.slab, held_from);
   if (keeps_) write_down(simulation, old_rear - size_.slab, new_rear);
   Exchange change;
-  double largest = 0;
-  for (const TileGrain& grain : tile_.grains) largest = std::max(largest, grain.radius);
+  const double largest = tile_.largest();
   change.leaves = [&](GrainId, const Motion& grain) {
     if (grain.position.x < old_rear) return true;
     if (grain.held() || grain.position.x < enters_from - 2 * largest) return false;
@@ -198,7 +238,7 @@ void MovingPatch::advance(Simulation& simulation) {
     return true;
   };
   change.stays = [&](GrainId, const Motion& grain) { return grain.position.x < new_rear; };
-  visit_between(tile_, held_from, enters_from, [&](std::int64_t image, std::uint32_t grain, const Vec3&) {
+  visit_between(tile_, held_from, enters_from, [&](std::int64_t image, std::uint32_t grain, double) {
     change.let_go.push_back({id(image, grain), tile_.grains[grain].mass});
   });
   bring_grains(enters_from, enters_to, enters_to, enters_to, change);
@@ -226,11 +266,26 @@ void MovingPatch::write_down(const Simulation& simulation, double from, double t
       continue;
     }
     const Vec3& at = grains.motion[row].position;
-    if (at.x < from || at.x >= to) continue;
+    const std::uint32_t clump = grains.clump[row];
+    const double x = clump == lone ? at.x : state.clumps.all[clump].motion.position.x;
+    if (x < from || x >= to) continue;
     const TileGrain& was = tile_.grains[id % tile_.grains.size()];
     place_of[row] = static_cast<std::uint32_t>(rut_.grains.size());
-    rut_.grains.push_back({at, was.radius, was.mass, was.material});
+    rut_.grains.push_back({at, was.radius, was.mass, was.material, lone});
     in_rut_.push_back(id);
+  }
+  for (Clump clump : state.clumps.all) {
+    const auto spheres = state.clumps.of(clump);
+    const std::uint32_t first = place_of[spheres.front().row];
+    if (first == nowhere || first < known) continue;
+    clump.first = static_cast<std::uint32_t>(rut_.clumps.members.size());
+    for (const ClumpMember& sphere : spheres) {
+      const std::uint32_t grain = place_of[sphere.row];
+      rut_.grains[grain].clump = static_cast<std::uint32_t>(rut_.clumps.all.size());
+      rut_.clumps.members.push_back({sphere.id, sphere.arm, grain});
+    }
+    clump.motion.velocity = clump.motion.spin = {};
+    rut_.clumps.all.push_back(clump);
   }
   const PairList& pairs = state.pairs;
   for (std::size_t pair = 0; pair < pairs.first.size(); ++pair) {
@@ -264,10 +319,12 @@ Simulation MovingPatch::back_over_its_rut(const Simulation& simulation, double w
 SurfaceHeight MovingPatch::undisturbed(const Footprint& over, double spacing) const {
   SurfaceHeight out = bare_floor(over, spacing);
   const Tile& tile = undisturbed_.grains.empty() ? tile_ : undisturbed_;
-  double largest = 0;
-  for (const TileGrain& grain : tile.grains) largest = std::max(largest, grain.radius);
-  visit_between(tile, over.x_lower - largest, over.x_upper + largest,
-                [&](std::int64_t, std::uint32_t k, const Vec3& at) { raise(out, at, tile.grains[k].radius); });
+  const double largest = tile.largest();
+  visit_between(tile, over.x_lower - largest, over.x_upper + largest, [&](std::int64_t image, std::uint32_t k, double) {
+    Vec3 at = tile.grains[k].position;
+    at.x += static_cast<double>(image) * tile.length;
+    raise(out, at, tile.grains[k].radius);
+  });
   return out;
 }
 

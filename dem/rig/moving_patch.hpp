@@ -33,11 +33,13 @@
 
 namespace soilbin::dem {
 
-/// A grain of a tile, 0 <= x < length.
+/// A grain of a tile, 0 <= x < length, or a sphere of a clump whose centre of mass lies there.
 struct TileGrain {
   Vec3 position;
-  double radius = 0, mass = 0;  ///< [m], [kg]; held_mass where it is held in the tile too
+  double radius = 0,
+         mass = 0;  ///< [m], [kg]; of a clump's sphere the clump's; held_mass where it is held in the tile too
   std::int32_t material = 0;
+  std::uint32_t clump = lone;
 };
 
 /// A contact of two grains of a tile, of which the second is that of `image` tiles on.
@@ -61,10 +63,18 @@ struct Tile {
   std::vector<TileGrain> grains;
   std::vector<TileContact> contacts;
   std::vector<TileOnSurface> on_surfaces;
+  Clumps clumps;  ///< at rest; the row of a member is its number among the grains
+
+  /// The x by which a grain enters and leaves: a clump goes as a whole [m].
+  double x_of(std::uint32_t grain) const {
+    const TileGrain& it = grains[grain];
+    return it.clump == lone ? it.position.x : clumps.all[it.clump].motion.position.x;
+  }
+  /// Radius of the largest grain, of a clump of the ball about its centre of mass that holds it [m].
+  double largest() const;
 };
 
-/// Throws InputError for a domain that is not periodic along x, for meshes among the bodies, and for grains of several
-/// spheres.
+/// Throws InputError for a domain that is not periodic along x, and for meshes among the bodies.
 Tile tile_of(const Setup& setup, const State& state);
 
 /// [m]
@@ -112,11 +122,13 @@ class MovingPatch {
     return size_.behind + size_.ahead + static_cast<double>(advances) * size_.slab;
   }
   Vec3 place(std::int64_t image, std::uint32_t grain) const;
+  double x_of(std::int64_t image, std::uint32_t grain) const;
   GrainId id(std::int64_t image, std::uint32_t grain) const;
   Vec3 home(GrainId id) const;
   void bring_contacts(double from, double to, Exchange& change,
                       const std::function<bool(double first, double second)>& wanted) const;
   void bring_grains(double from, double to, double free_from, double free_to, Exchange& change) const;
+  void bring_clump(std::int64_t image, const Clump& clump, Exchange& change) const;
   void advance(Simulation& simulation);
   void note_disturbance(const Simulation& simulation, double from, double to);
   void write_down(const Simulation& simulation, double from, double to);
@@ -133,7 +145,7 @@ class MovingPatch {
 
 template <class Notes>
 void archive(Notes& notes, TileGrain& g) {
-  notes(g.position, g.radius, g.mass, g.material);
+  notes(g.position, g.radius, g.mass, g.material, g.clump);
 }
 template <class Notes>
 void archive(Notes& notes, TileContact& c) {
@@ -145,8 +157,18 @@ void archive(Notes& notes, TileOnSurface& c) {
 }
 
 template <class Notes>
+void archive(Notes& notes, Clump& c) {
+  Rotation& r = c.motion.rotation;
+  notes(c.mass, c.inertia, c.motion.position, r.w, r.x, r.y, r.z, c.first, c.count);
+}
+template <class Notes>
+void archive(Notes& notes, ClumpMember& m) {
+  notes(m.arm, m.row);
+}
+
+template <class Notes>
 void archive(Notes& notes, Tile& t) {
-  notes(t.length, t.grains, t.contacts, t.on_surfaces);
+  notes(t.length, t.grains, t.contacts, t.on_surfaces, t.clumps.all, t.clumps.members);
 }
 
 template <class Notes>

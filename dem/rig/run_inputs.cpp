@@ -56,7 +56,7 @@ void add_rig(Inputs& to, const Rig& rig) {
 }
 
 /// To be raised when the same inputs give other bits, or a restart keeps something else.
-constexpr int version = 4;
+constexpr int version = 5;
 
 Inputs inputs_with_contact(BedRecipe recipe, const Tire& tire, const ContactPair& tire_contact, const Rig& rig) {
   recipe.soil.grain_tire = tire_contact;

@@ -6,12 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "dem/bed/bed_store.hpp"
 #include "dem/rig/dem_model.hpp"
 #include "dem/rig/wheel_in_bin.hpp"
+#include "scenario/description.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/mapping_writer.hpp"
 #include "scenario/unit.hpp"
 #include "tests/dem/archive_scene.hpp"
 #include "tests/dem/small_bed.hpp"
@@ -26,15 +30,17 @@ using test::small_wheel;
 using test::with_threads;
 using ::testing::HasSubstr;
 
-BedRecipe tile_recipe() {
+BedRecipe tile_recipe(GrainShape shape = GrainShape::sphere) {
   BedRecipe recipe = test::small_recipe({0.3, 0.16, 0.06});
-  recipe.periodic = true;
+  recipe.periodic = true, recipe.soil.shape = shape;
   return recipe;
 }
 
-const SettledBed& tile_bed() {
-  static const SettledBed bed = settle_bed(tile_recipe(), with_threads(1));
-  return bed;
+const SettledBed& tile_bed(GrainShape shape = GrainShape::sphere) {
+  static std::map<GrainShape, SettledBed> beds;
+  const auto found = beds.find(shape);
+  return found != beds.end() ? found->second
+                             : beds.emplace(shape, settle_bed(tile_recipe(shape), with_threads(1))).first->second;
 }
 
 double slab() { return slab_of_patch(tile_recipe()); }
@@ -43,8 +49,8 @@ double diameter() { return mean_diameter(tile_recipe().soil); }
 /// [m]
 PatchSize small_patch() { return {.behind = 0.12, .ahead = 0.13, .slab = slab()}; }
 
-Setup patch_setup(int threads = 1, bool ledger = false) {
-  Setup setup = tile_bed().setup;
+Setup patch_setup(const SettledBed& bed = tile_bed(), int threads = 1, bool ledger = false) {
+  Setup setup = bed.setup;
   setup.numerics.threads = threads, setup.numerics.ledger = ledger;
   return setup;
 }
@@ -57,12 +63,24 @@ void go_on(MovingPatch& patch, Simulation& simulation, int slabs, int steps_each
   }
 }
 
-TEST(Tile, HoldsAsManyContactsThroughItsSeamAsThroughAnyOtherCut) {
-  const Tile tile = tile_of(tile_bed().setup, tile_bed().state);
-  EXPECT_EQ(tile.grains.size(), tile_bed().report.grains);
-  for (const TileGrain& grain : tile.grains) {
-    EXPECT_GE(grain.position.x, 0);
-    EXPECT_LE(grain.position.x, tile.length);
+/// On grains that are spheres, and on clumps.
+class Patch : public ::testing::TestWithParam<GrainShape> {
+ public:
+  const SettledBed& bed() const { return tile_bed(GetParam()); }
+  MovingPatch patch(KeepsRut keeps = KeepsRut::no) const {
+    return MovingPatch(tile_of(bed().setup, bed().state), small_patch(), keeps);
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Grains, Patch, ::testing::Values(GrainShape::sphere, GrainShape::four_spheres),
+                         [](const auto& info) { return std::string(word_of(info.param)); });
+
+TEST_P(Patch, IsMadeOfATileThatHoldsAsManyContactsThroughItsSeamAsThroughAnyOtherCut) {
+  const Tile tile = tile_of(bed().setup, bed().state);
+  EXPECT_EQ(tile.grains.size() - tile.clumps.members.size() + tile.clumps.all.size(), bed().report.grains);
+  for (std::uint32_t grain = 0; grain < tile.grains.size(); ++grain) {
+    EXPECT_GE(tile.x_of(grain), 0);
+    EXPECT_LE(tile.x_of(grain), tile.length);
   }
   // Contacts that go through the cut x, the seam being x = 0.
   const auto through = [&](double x) {
@@ -86,9 +104,9 @@ TEST(Tile, HoldsAsManyContactsThroughItsSeamAsThroughAnyOtherCut) {
   EXPECT_NEAR(through(0), mean, 4 * deviation);
 }
 
-TEST(MovingPatch, WithoutAWheelStaysAtRestWhileItGoesOn) {
-  MovingPatch patch(tile_of(tile_bed().setup, tile_bed().state), small_patch());
-  Simulation simulation = patch.open(patch_setup(), tile_bed().state, 1);
+TEST_P(Patch, WithoutAWheelStaysAtRestWhileItGoesOn) {
+  MovingPatch patch = this->patch();
+  Simulation simulation = patch.open(patch_setup(bed()), bed().state, 1);
   const RestTest& rest = tile_recipe().rest;
   const auto expect_rest = [&](const char* when) {
     const Unrest now = unrest(simulation);
@@ -124,24 +142,49 @@ TEST(SlowMovingPatch, OfAGradedBedStaysAtRestWhileItGoesOn) {
   EXPECT_LT(patch.disturbed(), 1e-3 * mean_diameter(recipe.soil));
 }
 
-TEST(MovingPatch, EndsInWhatIsHeldAndNothingElseIs) {
-  MovingPatch patch(tile_of(tile_bed().setup, tile_bed().state), small_patch());
-  Simulation simulation = patch.open(patch_setup(), tile_bed().state, 1);
+TEST_P(Patch, EndsInWhatIsHeldAndNothingElseIs) {
+  MovingPatch patch = this->patch();
+  Simulation simulation = patch.open(patch_setup(bed()), bed().state, 1);
   go_on(patch, simulation, 3, 10);
+  const State& state = simulation.state();
   int held = 0;
-  for (const Motion& grain : std::span(simulation.state().grains.motion.data(), simulation.state().grains.count())) {
-    const double x = grain.position.x;
+  for (std::size_t row = 0; row < state.grains.count(); ++row) {
+    const Motion& grain = state.grains.motion[row];
+    const std::uint32_t clump = state.grains.clump[row];
+    const double x = clump == lone ? grain.position.x : state.clumps.all[clump].motion.position.x;
     EXPECT_GE(x, patch.rear() - slab());
     EXPECT_LT(x, patch.front() + slab());
     EXPECT_EQ(grain.held(), x < patch.rear() || x >= patch.front()) << x;
+    EXPECT_EQ(grain.held(), state.grains.spin[row].inverse_inertia == 0);
     held += grain.held();
   }
   EXPECT_GT(held, 50);
 }
 
-TEST(MovingPatch, LedgerClosesWithWhatEntersAndLeaves) {
-  MovingPatch patch(tile_of(tile_bed().setup, tile_bed().state), small_patch());
-  Simulation simulation = patch.open(patch_setup(1, true), tile_bed().state, 1);
+// A clump that went through a patch is the rigid body that it was: its spheres lie as in its tile, and weigh it.
+TEST(MovingPatch, LeavesClumpsWhole) {
+  const SettledBed& bed = tile_bed(GrainShape::four_spheres);
+  MovingPatch patch(tile_of(bed.setup, bed.state), small_patch());
+  Simulation simulation = patch.open(patch_setup(bed), bed.state, 1);
+  go_on(patch, simulation, 6, 40);
+  const State& state = simulation.state();
+  EXPECT_EQ(state.clumps.members.size(), state.grains.count());
+  EXPECT_EQ(state.clumps.all.size() * 4, state.grains.count());
+  for (const Clump& clump : state.clumps.all)
+    for (const ClumpMember& member : state.clumps.of(clump)) {
+      const Motion& sphere = state.grains.motion[member.row];
+      EXPECT_EQ(state.grains.id[member.row], member.id);
+      EXPECT_LT(length(clump.motion.position + clump.motion.rotation(member.arm) - sphere.position), 1e-12);
+      if (!sphere.held()) {
+        EXPECT_DOUBLE_EQ(sphere.inverse_mass * clump.mass, 1);
+        EXPECT_DOUBLE_EQ(state.grains.spin[member.row].inverse_inertia * mean_inertia(clump), 1);
+      }
+    }
+}
+
+TEST_P(Patch, LedgerClosesWithWhatEntersAndLeaves) {
+  MovingPatch patch = this->patch();
+  Simulation simulation = patch.open(patch_setup(bed(), 1, true), bed().state, 1);
   // Something to count: all that lies on top gets a push.
   Body plate = test::mesh_body(box({0.06, 0.06, 0.02}));
   plate.position = {0.12, 0.08, 0.085};
@@ -160,11 +203,11 @@ TEST(MovingPatch, LedgerClosesWithWhatEntersAndLeaves) {
   EXPECT_LT(std::abs(simulation.energy().total()), 0.02 * simulation.body(1).work);
 }
 
-TEST(MovingPatch, SameBitsForThreadsAndFromACopyOfItsState) {
+TEST_P(Patch, TellsTheSameBitsForThreadsAndFromACopyOfItsState) {
   const auto begun = [&](MovingPatch& patch, int threads) {
-    return patch.open(patch_setup(threads), tile_bed().state, 1);
+    return patch.open(patch_setup(bed(), threads), bed().state, 1);
   };
-  MovingPatch one(tile_of(tile_bed().setup, tile_bed().state), small_patch()), three = one;
+  MovingPatch one = patch(), three = one;
   Simulation with_one = begun(one, 1), with_three = begun(three, 3);
   go_on(one, with_one, 2, 60), go_on(three, with_three, 4, 60);
   MovingPatch later = one;
@@ -175,14 +218,16 @@ TEST(MovingPatch, SameBitsForThreadsAndFromACopyOfItsState) {
 }
 
 // A plate has pushed the top of the bed; the furrow enters again grain by grain where it was left, and at rest.
-TEST(MovingPatch, GoesBackOverTheFurrowThatItHasLeft) {
-  MovingPatch patch(tile_of(tile_bed().setup, tile_bed().state), small_patch(), KeepsRut::yes);
-  Simulation simulation = patch.open(patch_setup(), tile_bed().state, 1);
+TEST_P(Patch, GoesBackOverTheFurrowThatItHasLeft) {
+  MovingPatch patch = this->patch(KeepsRut::yes);
+  Simulation simulation = patch.open(patch_setup(bed()), bed().state, 1);
   Body plate = test::mesh_body(box({0.06, 0.06, 0.02}));
-  plate.position = {0.06, 0.08, 0.1}, plate.velocity = {0, 0, -0.2};  // its lower face 0.09 m above the floor
+  const Footprint under_plate{0.08, 0.12, 0.06, 0.10};
+  const SurfaceHeight settled = patch.undisturbed(under_plate, 0.002);
+  plate.position = {0.1, 0.08, 0.1}, plate.velocity = {0, 0, -0.2};  // its lower face 0.09 m above the floor
   const int pusher = simulation.add_body(plate);
   const auto steps_of = [&](double time) { return static_cast<std::int64_t>(time / simulation.setup().numerics.dt); };
-  simulation.run(steps_of(0.2));  // to 0.05 m
+  simulation.run(steps_of((0.09 - settled.mean() + 0.15 * diameter()) / 0.2));
   simulation.body(pusher).velocity = {}, simulation.body(pusher).position.z = 0.3;
   const RestTest& rest = tile_recipe().rest;
   const auto is_at_rest = [&] {
@@ -197,7 +242,7 @@ TEST(MovingPatch, GoesBackOverTheFurrowThatItHasLeft) {
   };
   note_places();
   const std::size_t at_first = left.size();
-  go_on(patch, simulation, 3, 50);
+  go_on(patch, simulation, 3, 400);
   note_places();
   const double disturbed = patch.disturbed();
   simulation = patch.back_over_its_rut(simulation, 3 * slab(), KeepsRut::no);
@@ -209,8 +254,6 @@ TEST(MovingPatch, GoesBackOverTheFurrowThatItHasLeft) {
   }
   EXPECT_GE(found, 0.99 * static_cast<double>(at_first));
   const auto count = static_cast<double>(simulation.state().grains.count());
-  const Footprint under_plate{0.04, 0.08, 0.06, 0.10};
-  const SurfaceHeight settled = patch.undisturbed(under_plate, 0.002);
   const SurfaceHeight now = surface_height(simulation.state().grains, under_plate, 0.002);
   EXPECT_LT(now.mean(), settled.mean() - 0.1 * diameter()) << "the sinkage counts from before the furrow";
   for (int k = 0; k < 3; ++k) {
@@ -236,8 +279,8 @@ OperatingCondition uphill() {
 }
 
 WheelRun patch_run(const Rig& rig, const OperatingCondition& at, const WorkOptions& how,
-                   const Checkpoints& checkpoints = {}) {
-  return run_wheel({tile_bed(), small_wheel(), tile_bed().recipe.soil.grain_tire, rig}, at, how, checkpoints);
+                   const Checkpoints& checkpoints = {}, const SettledBed& bed = tile_bed()) {
+  return run_wheel({bed, small_wheel(), bed.recipe.soil.grain_tire, rig}, at, how, checkpoints);
 }
 
 std::string patch_bits(WheelRun run) {
@@ -247,13 +290,13 @@ std::string patch_bits(WheelRun run) {
   return bits.text();
 }
 
-TEST(SlowMovingPatch, ARunThatIsStoppedAgainAndAgainTellsTheSame) {
+void expect_stops_change_nothing(const SettledBed& bed, double travel) {
   const Folder folder;
   Rig rig = patch_rig();
-  rig.travel = 0.12, rig.ledger = true;
+  rig.travel = travel, rig.ledger = true;
   OperatingCondition twice = uphill();
   twice.pass = 2;
-  const std::string whole = patch_bits(patch_run(rig, twice, with_threads(1)));
+  const std::string whole = patch_bits(patch_run(rig, twice, with_threads(1), {}, bed));
   const Checkpoints kept{folder / "run.h5", 0};
   int stops = 0;
   for (std::string told; told.empty();) {
@@ -264,13 +307,19 @@ TEST(SlowMovingPatch, ARunThatIsStoppedAgainAndAgainTellsTheSame) {
       if (++said == 8) source.request_stop();
     };
     try {
-      told = patch_bits(patch_run(rig, twice, how, kept));
+      told = patch_bits(patch_run(rig, twice, how, kept, bed));
       EXPECT_TRUE(told == whole);
     } catch (const Stopped&) {
       ++stops;
     }
   }
   EXPECT_GE(stops, 4);
+}
+
+TEST(SlowMovingPatch, ARunThatIsStoppedAgainAndAgainTellsTheSame) { expect_stops_change_nothing(tile_bed(), 0.12); }
+
+TEST(SlowMovingPatch, ARunOnClumpsThatIsStoppedAgainAndAgainTellsTheSame) {
+  expect_stops_change_nothing(tile_bed(GrainShape::two_spheres), 0.07);
 }
 
 /// Mean over packings of a channel, and its error from their scatter.
@@ -292,11 +341,12 @@ SettledBed with_rough_floor(SettledBed bed) {
 }
 
 /// The same run on long beds with end walls and on moving patches, several packings of each.
-void expect_same_on_both(const OperatingCondition& at) {
+void expect_same_on_both(const OperatingCondition& at, GrainShape shape = GrainShape::sphere,
+                         std::uint64_t packings = 4) {
   std::vector<WheelRun> fixed, moving;
-  for (const std::uint64_t packing : {1, 2, 3, 4}) {
+  for (std::uint64_t packing = 1; packing <= packings; ++packing) {
     BedRecipe recipe = test::small_recipe({1.18, 0.16, 0.06});
-    recipe.packing = packing;
+    recipe.packing = packing, recipe.soil.shape = shape;
     const SettledBed bed = with_rough_floor(settle_bed(recipe, with_threads(1)));
     Rig rig = patch_rig();
     rig.patch = false, rig.travel = 0.8, rig.behind = 0.14, rig.ahead = 0.24;
@@ -306,7 +356,7 @@ void expect_same_on_both(const OperatingCondition& at) {
     const SettledBed tile = settle_bed(recipe, with_threads(1));
     rig.patch = true;
     moving.push_back(run_wheel({tile, tire, recipe.soil.grain_tire, rig}, at, with_threads(1)));
-    EXPECT_LT(moving.back().patch.grains, 0.48 * static_cast<double>(bed.report.grains));
+    EXPECT_LT(moving.back().patch.grains, 0.48 * static_cast<double>(bed.state.grains.count()));
     EXPECT_LT(moving.back().patch.disturbed, 0.1 * diameter());
     EXPECT_NEAR(moving.back().samples.back().travel, 0.8, 0.01);
     EXPECT_GT(moving.back().rut.across.size(), 5U);
@@ -325,6 +375,10 @@ TEST(SlowMovingPatch, PullsTurnsAndSinksAsOnAFixedBed) {
   OperatingCondition at = uphill();
   at.longitudinal_incline = 0;
   expect_same_on_both(at);
+}
+
+TEST(SlowMovingPatch, OfClumpsIsAsAFixedBedOfThemOnASlope) {
+  expect_same_on_both(uphill(), GrainShape::two_spheres, 3);
 }
 
 TEST(SlowMovingPatch, PullsTurnsSinksAndIsPushedAsideAsOnAFixedBedOnASlope) {
@@ -397,9 +451,6 @@ void expect_refused(const char* why, const Work& work) {
 
 TEST(MovingPatch, RefusesWhatItDoesNotHave) {
   const Scenario scenario = small_scenario();
-  Scenario rods = scenario;
-  rods.soil.granular->shape = GrainShape::two_spheres;
-  expect_refused("grains of one sphere", [&] { DemModel(patch_settings()).check(rods); });
   DemSettings lammps = patch_settings();
   lammps.lammps.emplace();
   expect_refused("soilbin's own engine alone", [&] { DemModel(lammps).check(scenario); });
