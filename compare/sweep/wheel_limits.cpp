@@ -112,12 +112,14 @@ std::optional<TowedWheel> towed(const bekker_wong::RollingWheel& wheel, const Sc
 /// To first order. The largest pull changes with the soil as the pull at its slip does (the envelope theorem).
 void add_errors(const Scenario& scenario, WheelLimits& answer) {
   OperatingCondition at = answer.at;
-  if (answer.steepest_within) {
-    const bekker_wong::RollingWheel wheel = wheel_of(scenario, answer.model);
-    at.longitudinal_incline = *answer.steepest_within;
-    at.slip = bekker_wong::largest_pull(wheel, at, answer.max_slip).slip;
-    answer.within_error = error_of_steepest(scenario, at);
-  }
+  const bekker_wong::RollingWheel wheel = wheel_of(scenario, answer.model);
+  const auto error_at = [&](double steepest, double max_slip) {
+    at.longitudinal_incline = steepest;
+    at.slip = bekker_wong::largest_pull(wheel, at, max_slip).slip;
+    return error_of_steepest(scenario, at);
+  };
+  if (answer.steepest_within) answer.within_error = error_at(*answer.steepest_within, answer.max_slip);
+  if (answer.steepest && *answer.steepest < 0.0) answer.steepest_error = error_at(*answer.steepest, 1.0);  // of no row
   for (SlopeRow& row : answer.slopes) {
     at.longitudinal_incline = row.slope, at.slip = row.best.slip;
     if (const Answer best = ask(with_errors(), scenario, at); best.result)
