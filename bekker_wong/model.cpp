@@ -96,12 +96,7 @@ TractionResult BekkerWong::evaluate(const Scenario& scenario, const OperatingCon
   const RollingWheel wheel(scenario.tire, values_of(*scenario.soil.semi_empirical), effects, scenario.bin);
   const RolledWheel balanced = wheel.roll(at);
   TractionResult result = traction_result(balanced, scenario.tire, detail_.patch);
-  if (detail_.errors) {
-    add_standard_errors(result, balanced, scenario, effects);
-    for (std::size_t i = 0; i < traction_channels.size(); ++i)
-      if (double& error = (result.*traction_channels[i].predicted).std_error; scenario.misfit[i] > 0.0)
-        error = std::hypot(error, scenario.misfit[i]);
-  }
+  if (detail_.errors) add_standard_errors(result, balanced, scenario, effects);
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "bekker_wong/effect.hpp"
@@ -115,64 +116,59 @@ BalanceDerivatives::Channels BalanceDerivatives::by(const std::vector<EffectChoi
   return balanced(with(beside.below), with(beside.above));
 }
 
-namespace {
-
-using Channels = BalanceDerivatives::Channels;
-
-/// What a parameter's standard deviation does to the channels.
-struct Shift {
-  std::string parameter;
-  Channels channels;  ///< sd dr/dp
-};
-
-Channels times(double sd, Channels slope) {
-  for (double& s : slope) s *= sd;
-  return slope;
-}
-
-std::vector<Shift> shifts_of(const BalanceDerivatives& derivatives, const Scenario& scenario) {
-  std::vector<Shift> shifts;
-  for (std::size_t p = 0; p < soil_parameters.size(); ++p)
-    if (const double sd = ((*scenario.soil.semi_empirical).*soil_parameters[p].value).std_error; sd > 0.0)
-      shifts.push_back({soil_parameters[p].name, times(sd, derivatives.by(p, sd))});
-  if (errs_by_carcass(scenario.tire, scenario.effects)) {
-    const double sd = scenario.tire.carcass_pressure->std_error;
-    shifts.push_back({carcass_pressure_key, times(sd, derivatives.by_carcass_pressure(sd))});
-  }
-  for (const FittedError& error : scenario.errors)
-    if (const auto place = find_effect_parameter(error.parameter, scenario.effects); place && error.std_error > 0.0)
-      shifts.push_back({error.parameter, times(*error.std_error, derivatives.by(scenario.effects, place->effect,
-                                                                                place->parameter, *error.std_error))});
-  return shifts;
-}
-
-}  // namespace
-
-void add_standard_errors(TractionResult& result, const RolledWheel& balanced, const Scenario& scenario,
-                         const EffectList& effects) {
+ChannelErrors::ChannelErrors(const RolledWheel& balanced, const Scenario& scenario, const EffectList& effects)
+    : scenario_(scenario) {
   const SemiEmpiricalSoil& declared = *scenario.soil.semi_empirical;
   const bool exact_soil =
       std::ranges::none_of(soil_parameters, [&](const auto& p) { return (declared.*p.value).std_error > 0.0; });
   if (exact_soil && scenario.errors.empty() && !errs_by_carcass(scenario.tire, scenario.effects)) return;
   const SoilValues soil = values_of(declared);
   const BalanceDerivatives derivatives(scenario.tire, soil, effects, scenario.bin, balanced.at, balanced.balance_angle);
-  std::vector<Shift> shifts = shifts_of(derivatives, scenario);
-  std::erase_if(shifts, [&](const Shift& shift) {
-    const bool exists = std::ranges::all_of(shift.channels, [](double s) { return std::isfinite(s * s); });
-    if (!exists) result.without_error_of.push_back(shift.parameter);
-    return !exists;
-  });
-  Channels variance{};
-  for (const Shift& shift : shifts)
-    for (std::size_t i = 0; i < variance.size(); ++i) variance[i] += shift.channels[i] * shift.channels[i];
-  for (std::size_t a = 0; a < shifts.size() && !scenario.errors.empty(); ++a)
-    for (std::size_t b = 0; b < a; ++b) {
-      const double r = correlation(scenario.errors, shifts[a].parameter, shifts[b].parameter);
-      for (std::size_t i = 0; i < variance.size(); ++i)
-        variance[i] += 2 * r * shifts[a].channels[i] * shifts[b].channels[i];
-    }
-  for (std::size_t i = 0; i < variance.size(); ++i)
-    (result.*traction_channels[i].predicted).std_error = std::sqrt(std::max(0.0, variance[i]));
+  for (std::size_t p = 0; p < soil_parameters.size(); ++p)
+    if (const double sd = (declared.*soil_parameters[p].value).std_error; sd > 0.0)
+      add(soil_parameters[p].name, sd, derivatives.by(p, sd));
+  if (errs_by_carcass(scenario.tire, scenario.effects)) {
+    const double sd = scenario.tire.carcass_pressure->std_error;
+    add(carcass_pressure_key, sd, derivatives.by_carcass_pressure(sd));
+  }
+  for (const FittedError& error : scenario.errors)
+    if (const auto place = find_effect_parameter(error.parameter, scenario.effects); place && error.std_error > 0.0)
+      add(error.parameter, *error.std_error,
+          derivatives.by(scenario.effects, place->effect, place->parameter, *error.std_error));
+}
+
+void ChannelErrors::add(const std::string& parameter, double sd, BalanceDerivatives::Channels slopes) {
+  for (double& s : slopes) s *= sd;
+  if (std::ranges::all_of(slopes, [](double s) { return std::isfinite(s * s); }))
+    shifts_.push_back({parameter, slopes});
+  else
+    without_.push_back(parameter);
+}
+
+double ChannelErrors::of(const BalanceDerivatives::Channels& factors) const {
+  std::vector<double> shifts;
+  for (const Shift& shift : shifts_)
+    shifts.push_back(std::inner_product(factors.begin(), factors.end(), shift.channels.begin(), 0.0));
+  double variance = 0.0;
+  for (const double shift : shifts) variance += shift * shift;
+  for (std::size_t a = 0; a < shifts.size() && !scenario_.errors.empty(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      variance += 2 * correlation(scenario_.errors, shifts_[a].parameter, shifts_[b].parameter) * shifts[a] * shifts[b];
+  double error = std::sqrt(std::max(0.0, variance));
+  for (std::size_t i = 0; i < factors.size(); ++i)
+    if (scenario_.misfit[i] > 0.0) error = std::hypot(error, factors[i] * scenario_.misfit[i]);
+  return error;
+}
+
+void add_standard_errors(TractionResult& result, const RolledWheel& balanced, const Scenario& scenario,
+                         const EffectList& effects) {
+  const ChannelErrors errors(balanced, scenario, effects);
+  result.without_error_of = errors.without();
+  for (std::size_t i = 0; i < traction_channels.size(); ++i) {
+    BalanceDerivatives::Channels alone{};
+    alone[i] = 1.0;
+    (result.*traction_channels[i].predicted).std_error = errors.of(alone);
+  }
 }
 
 }  // namespace soilbin::bekker_wong

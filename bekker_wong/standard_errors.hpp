@@ -68,9 +68,34 @@ class BalanceDerivatives {
   Point by_angle_;
 };
 
-/// Sets the channels' standard errors, to first order: the root of g'C g, with g the slopes over the parameters that
-/// have a standard deviation and C their covariance; that is diagonal but for what scenario.errors says of a fit.
-/// Names in without_error_of each parameter whose derivative does not exist.
+/// How a balanced wheel's channels err, to first order: by the parameters that have a standard deviation, of the soil,
+/// the carcass and the effects, with their correlations, which are none but for what scenario.errors says of a fit.
+class ChannelErrors {
+ public:
+  /// What is referred to must outlive this.
+  ChannelErrors(const RolledWheel& balanced, const Scenario& scenario, const EffectList& effects);
+
+  /// Of the sum of the channels, each times its factor: the root of g'C g, with g its slopes over the parameters and C
+  /// their covariance, and of the misfits' squares.
+  double of(const BalanceDerivatives::Channels& factors) const;
+
+  /// Each parameter whose derivative does not exist; `of` leaves it out.
+  const std::vector<std::string>& without() const { return without_; }
+
+ private:
+  /// What a parameter's standard deviation does to the channels.
+  struct Shift {
+    std::string parameter{};
+    BalanceDerivatives::Channels channels{};  ///< sd dr/dp
+  };
+  void add(const std::string& parameter, double sd, BalanceDerivatives::Channels slopes);
+
+  std::vector<Shift> shifts_;
+  std::vector<std::string> without_;
+  const Scenario& scenario_;
+};
+
+/// Sets the channels' standard errors and names in without_error_of what they leave out.
 void add_standard_errors(TractionResult& result, const RolledWheel& balanced, const Scenario& scenario,
                          const EffectList& effects);
 

@@ -21,7 +21,8 @@ void drive_axles(const std::string& names, std::vector<compare::VehicleAxle>& ax
                                    did_you_mean(name, known), listed(known)));
   for (compare::VehicleAxle& axle : axles) {
     axle.driven = std::ranges::find(driven, axle.name) != driven.end() ? YesNo::yes : YesNo::no;
-    if (axle.driven == YesNo::no) axle.largest_torque.reset(), axle.motor.reset();
+    if (axle.driven == YesNo::no)
+      axle.largest_torque.reset(), axle.motor.reset(), axle.differential.reset(), axle.torque_share.reset();
   }
 }
 
@@ -48,8 +49,8 @@ VehicleQuestion::VehicleQuestion(CLI::App& app) {
 void VehicleQuestion::change(compare::VehicleCase& vehicle) const {
   machine_.apply(vehicle);
   centre_of_gravity_.apply(vehicle.centre_of_gravity);
-  if (!driven_.empty()) drive_axles(driven_, vehicle.axles);
-  if (!machine_.any_given() && !centre_of_gravity_.any_given() && driven_.empty()) return;
+  if (driven_) drive_axles(*driven_, vehicle.axles);
+  if (!machine_.any_given() && !centre_of_gravity_.any_given() && !driven_) return;
   vehicle.name += ", changed";
   if (const std::string wrong = contradiction(vehicle); !wrong.empty())
     throw InputError(wrong + "\n  hint: these flags do not go with that; a file of your own says all of it");

@@ -15,11 +15,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json drive_lines_json(const compare::VehicleCase& vehicle) {
-  return {{"key", "drive-line"},
-          {"title", "Drive line"},
-          {"value", word_of(vehicle.drive_line)},
-          {"words", all_words<compare::DriveLine>()}};
+/// Lists of words that the page offers.
+Json choices_json(const compare::VehicleCase& vehicle) {
+  Json choices = Json::array({{{"key", "drive-line"},
+                               {"title", "Drive line"},
+                               {"value", word_of(vehicle.drive_line)},
+                               {"words", all_words<compare::DriveLine>()}}});
+  if (vehicle.axles.size() > 1)
+    choices.push_back({{"key", "centre-differential"},
+                       {"title", "Centre differential"},
+                       {"value", word_of(vehicle.centre_differential.value_or(compare::Differential::locked))},
+                       {"words", all_words<compare::Differential>()}});
+  return choices;
 }
 
 }  // namespace
@@ -56,7 +63,7 @@ Json VehicleSetup::document() const {
           {"soil", compare::in_words(vehicle.soil)},
           {"soils", soils_json(place_.library)},
           {"numbers", vehicle_numbers_json(vehicle, force_unit_)},
-          {"choices", Json::array({drive_lines_json(vehicle)})},
+          {"choices", choices_json(vehicle)},
           {"axles", compare::list_of(vehicle.axles,
                                      [](const compare::VehicleAxle& axle) {
                                        return Json{{"name", axle.name}, {"driven", axle.driven == YesNo::yes}};

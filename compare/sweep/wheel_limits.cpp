@@ -5,13 +5,11 @@
 #include <set>
 
 #include "bekker_wong/model.hpp"
-#include "bekker_wong/presumption.hpp"
 #include "bekker_wong/standard_errors.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/sweep/wheel_power.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/soil_parameters.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
@@ -78,11 +76,10 @@ double error_of_steepest(const Scenario& scenario, const OperatingCondition& at)
   return error_of_root(scenario, at, &OperatingCondition::longitudinal_incline, at.longitudinal_incline + 1.0);
 }
 
-/// Its errors to first order: with the torque held at none, a value of the soil changes the slip by -M_p/M_s and the
-/// pull by F_p - F_s M_p/M_s.
+/// Its errors to first order: with the torque M held at none, what changes pull F and torque by dF and dM changes the
+/// slip by -dM/M_s and the pull by dF - F_s dM/M_s.
 TowedWheel towed_at(const Scenario& scenario, OperatingCondition at, double slip) {
   constexpr double step = 1e-4;
-  const SemiEmpiricalSoil& soil = *scenario.soil.semi_empirical;
   const bekker_wong::RollingWheel wheel = wheel_of(scenario);
   at.slip = slip - step;
   const bekker_wong::Reading less = wheel.roll(at).reading;
@@ -92,21 +89,12 @@ TowedWheel towed_at(const Scenario& scenario, OperatingCondition at, double slip
   const bekker_wong::RolledWheel free = wheel.roll(at);
   const double torque_rise = (more.torque - less.torque) / (2 * step),
                pull_rise = (more.drawbar_pull - less.drawbar_pull) / (2 * step);
-  const bekker_wong::SoilValues values = bekker_wong::values_of(soil);
-  const bekker_wong::EffectList effects = bekker_wong::make_effects(scenario.effects);
-  const bekker_wong::BalanceDerivatives slopes(scenario.tire, values, effects, scenario.bin, at, free.balance_angle);
-  double of_slip = 0.0, of_pull = 0.0;  // squares
-  const auto add = [&](const bekker_wong::BalanceDerivatives::Channels& by, double sd) {
-    const double slip_by = -by[1] / torque_rise, pull_by = by[0] + pull_rise * slip_by;
-    of_slip += std::pow(slip_by * sd, 2), of_pull += std::pow(pull_by * sd, 2);
+  const bekker_wong::ChannelErrors errors(free, scenario, bekker_wong::make_effects(scenario.effects));
+  const auto error_of = [&](double by_pull, double by_torque) {
+    return errors.without().empty() ? errors.of({by_pull, by_torque}) : not_a_number;
   };
-  for (std::size_t i = 0; i < soil_parameters.size(); ++i)
-    if (const double sd = (soil.*soil_parameters[i].value).std_error; sd > 0.0) add(slopes.by(i, sd), sd);
-  if (bekker_wong::errs_by_carcass(scenario.tire, scenario.effects))
-    add(slopes.by_carcass_pressure(scenario.tire.carcass_pressure->std_error),
-        scenario.tire.carcass_pressure->std_error);
-  if (!scenario.errors.empty()) of_slip = of_pull = not_a_number;
-  return {{slip, std::sqrt(of_slip)}, {-free.reading.drawbar_pull, std::sqrt(of_pull)}};
+  return {{slip, error_of(0.0, -1.0 / torque_rise)},
+          {-free.reading.drawbar_pull, error_of(1.0, -pull_rise / torque_rise)}};
 }
 
 std::optional<TowedWheel> towed(const bekker_wong::RollingWheel& wheel, const Scenario& scenario,
@@ -124,12 +112,14 @@ std::optional<TowedWheel> towed(const bekker_wong::RollingWheel& wheel, const Sc
 /// To first order. The largest pull changes with the soil as the pull at its slip does (the envelope theorem).
 void add_errors(const Scenario& scenario, WheelLimits& answer) {
   OperatingCondition at = answer.at;
-  if (answer.steepest_within) {
-    const bekker_wong::RollingWheel wheel = wheel_of(scenario, answer.model);
-    at.longitudinal_incline = *answer.steepest_within;
-    at.slip = bekker_wong::largest_pull(wheel, at, answer.max_slip).slip;
-    answer.within_error = error_of_steepest(scenario, at);
-  }
+  const bekker_wong::RollingWheel wheel = wheel_of(scenario, answer.model);
+  const auto error_at = [&](double steepest, double max_slip) {
+    at.longitudinal_incline = steepest;
+    at.slip = bekker_wong::largest_pull(wheel, at, max_slip).slip;
+    return error_of_steepest(scenario, at);
+  };
+  if (answer.steepest_within) answer.within_error = error_at(*answer.steepest_within, answer.max_slip);
+  if (answer.steepest && *answer.steepest < 0.0) answer.steepest_error = error_at(*answer.steepest, 1.0);  // of no row
   for (SlopeRow& row : answer.slopes) {
     at.longitudinal_incline = row.slope, at.slip = row.best.slip;
     if (const Answer best = ask(with_errors(), scenario, at); best.result)

@@ -16,7 +16,7 @@ namespace soilbin::compare {
 /// A wheel that takes no torque, on level ground: what pulls it along.
 struct TowedWheel {
   Estimate slip{};
-  Estimate resistance{};  ///< [N]; its error is not a number where a fit says how the soil's values err together
+  Estimate resistance{};  ///< [N]; neither has an error where a value of the soil has no derivative
 };
 
 /// What a wheel can do on one slope.

@@ -29,19 +29,25 @@ bool only_bounds(const WheelLimits& answer) {
          std::ranges::find(answer.model.effects, "slip_sinkage", &EffectChoice::id) == answer.model.effects.end();
 }
 
+/// With what it errs by, or that this is not known.
+std::string with_error(const Estimate& estimate, double per_unit = 1.0) {
+  return number(estimate, per_unit) + (std::isfinite(estimate.std_error) ? "" : " (± unknown)");
+}
+
 std::string slip_in_words(const SlopeRow& row) {
-  if (!row.slip) return "-";
+  if (!row.slip) return "none";
   if (spins_on_the_spot(*row.slip)) return "100 (no travel)";
   if (row.perhaps_not_at_all()) return number(100 * *row.slip) + ", or not at all";
-  return number({*row.slip, std::isfinite(row.slip_error) ? row.slip_error : 0.0}, 100);
+  if (*row.slip == row.best.slip) return number(100 * *row.slip);  // the steepest slope's has no error
+  return with_error({*row.slip, row.slip_error}, 100);
 }
 
 std::string steepest_in_words(const Estimate& steepest, double slip) {
   if (steepest.value >= 0.0 && spins_on_the_spot(slip))
-    return fmt::format("Theoretical limit {} deg (100 % slip).", number(steepest, 1 / degree));
-  if (steepest.value >= 0.0) return fmt::format("Steepest slope {} deg.", number(steepest, 1 / degree));
+    return fmt::format("Theoretical limit {} deg (100 % slip).", with_error(steepest, 1 / degree));
+  if (steepest.value >= 0.0) return fmt::format("Steepest slope {} deg.", with_error(steepest, 1 / degree));
   return fmt::format("It does not move on level ground: it needs a downhill slope of {} deg or more.",
-                     number({-steepest.value, steepest.std_error}, 1 / degree));
+                     with_error({-steepest.value, steepest.std_error}, 1 / degree));
 }
 
 /// The slope that a vehicle climbs in practice, with little slip.
@@ -51,8 +57,8 @@ std::string within_in_words(const WheelLimits& answer) {
   const Estimate slope{*answer.steepest_within, answer.within_error};
   if (slope.value < 0.0)
     return fmt::format("At up to {} % slip it needs a downhill slope of {} deg.", slip,
-                       number({-slope.value, slope.std_error}, 1 / degree));
-  return fmt::format("At up to {} % slip: {} deg.", slip, number(slope, 1 / degree));
+                       with_error({-slope.value, slope.std_error}, 1 / degree));
+  return fmt::format("At up to {} % slip: {} deg.", slip, with_error(slope, 1 / degree));
 }
 
 /// The condition, without what limits look for and a speed that changes nothing.
@@ -67,14 +73,9 @@ Table slopes_table(const WheelLimits& answer) {
   Table table{fmt::format("{}, {}", model_in_words(answer.model.label), shared_in_words({limited_at(answer)}, false)),
               {"slope [deg]", "slip to climb it [%]", "largest pull [N]", "slip of the largest pull [%]"}};
   for (const SlopeRow& row : answer.slopes)
-    table.add({number(row.slope / degree), slip_in_words(row), number({row.best.drawbar_pull, row.pull_error}),
+    table.add({number(row.slope / degree), slip_in_words(row), with_error({row.best.drawbar_pull, row.pull_error}),
                number(100 * row.best.slip)});
   return table;
-}
-
-/// Without the error that is not known.
-Estimate without_unknown(const Estimate& estimate) {
-  return {estimate.value, std::isfinite(estimate.std_error) ? estimate.std_error : 0.0};
 }
 
 /// What limits the table's numbers, the steepest slope, the one with little slip.
@@ -96,8 +97,7 @@ std::vector<std::string> words_on_slopes(const WheelLimits& answer) {
                                 number(level.best_spin), number(answer.at.speed, 3)));
   if (answer.towed)
     words.push_back(fmt::format("Towed over level ground, without torque, it slips by {} % and is pulled with {} N.",
-                                number(without_unknown(answer.towed->slip), 100),
-                                number(without_unknown(answer.towed->resistance))));
+                                with_error(answer.towed->slip, 100), with_error(answer.towed->resistance)));
   return words;
 }
 

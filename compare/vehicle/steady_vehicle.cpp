@@ -26,6 +26,8 @@ double turn_of(double unknown) {
   return most * std::tanh(unknown / most);
 }
 
+constexpr double nearly_all = 0.999;  // of its speed, that a side of a differential loses
+
 }  // namespace
 
 /// The unknowns of a balance: which of them there are, and their scales.
@@ -169,7 +171,7 @@ SteadyWheel SteadyVehicles::rolled(std::size_t wheel, const OperatingCondition& 
 }
 
 SteadyWheel SteadyVehicles::free(std::size_t wheel, OperatingCondition at, const std::function<double(double)>& torque,
-                                 double from, FoundSlip& found) const {
+                                 double from, FoundRoot& found) const {
   SteadyWheel steady;
   const auto missing = [&](double slip) {
     at.slip = slip;
@@ -179,10 +181,10 @@ SteadyWheel SteadyVehicles::free(std::size_t wheel, OperatingCondition at, const
   const double whole = at.load * wheels_[wheel].scenario.tire.radius;
   constexpr double small = 1e-13, rounding = 1e-12;  // shares of it: aimed at; what the wheel's own balance leaves
   const bool known = found.rise > 0.0;
-  double here = known ? found.slip : from, f = missing(here);
+  double here = known ? found.at : from, f = missing(here);
   if (steady.lifted) return steady;
   const auto rolls_at = [&](double slip) {
-    found.slip = slip;
+    found.at = slip;
     steady.result.torque.value = torque(slip);  // as it is defined, without what the search leaves
     return steady;
   };
@@ -212,8 +214,46 @@ SteadyWheel SteadyVehicles::free(std::size_t wheel, OperatingCondition at, const
                        torque(end) == 0.0 ? "no slip at which it rolls freely" : "no slip gives its torque");
 }
 
+int SteadyVehicles::balance_differential(const std::function<double(double)>& unlike, double most, double f_tol,
+                                         FoundRoot* found) {
+  const auto note = [&](double at, double rise) {
+    if (found != nullptr) *found = {at, rise};
+  };
+  const bool known = found != nullptr && found->rise > 0.0;
+  double here = known ? found->at : 0.0, f = unlike(here);
+  // By secants from where the last search ended, as long as they come closer.
+  for (bool closer = known; closer && std::abs(f) > 10 * f_tol;) {
+    const double before = here, at_before = f;
+    here = std::clamp(before - at_before / found->rise, -most, most);
+    if (here == before) break;
+    f = unlike(here);
+    closer = std::abs(f) < 0.5 * std::abs(at_before);
+    if (closer) found->at = here, found->rise = (f - at_before) / (here - before);
+  }
+  if (f == 0.0 || (known && std::abs(f) <= 1000 * f_tol)) return 0;
+  if (known && std::isnan(f)) here = 0.0, f = unlike(here);
+  const int direction = f < 0.0 ? 1 : -1;
+  for (double step = 0.01; here != direction * most && !std::isnan(f); step *= 1.5) {
+    const double next = std::clamp(here + direction * step, -most, most), g = unlike(next);
+    if (std::isnan(g)) {
+      if (step < 1e-6) break;
+      step /= 6;
+      continue;
+    }
+    if ((g < 0.0) != (f < 0.0) || g == 0.0) {
+      const double root = gsl::bracketed_root(unlike, {here, f}, {next, g}, 1e-15, f_tol, "the speeds at equal torque");
+      unlike(root);
+      note(root, (g - f) / (next - here));
+      return 0;
+    }
+    here = next, f = g;
+  }
+  note(0.0, 0.0);
+  return direction;
+}
+
 void SteadyVehicles::roll_axle(std::size_t axle, double slip, const Rims& rims, std::vector<OperatingCondition>& at,
-                               std::vector<SteadyWheel>& wheels, std::vector<FoundSlip>& found) const {
+                               std::vector<SteadyWheel>& wheels, Found& found) const {
   const VehicleAxle& about = vehicle_.axles[axle];
   std::vector<std::size_t> mine;
   for (std::size_t i = 0; i < wheels_.size(); ++i)
@@ -249,30 +289,19 @@ void SteadyVehicles::roll_axle(std::size_t axle, double slip, const Rims& rims, 
     }
   };
   if (about.driven == YesNo::no) {
-    each([&](std::size_t i) { wheels[i] = free(i, at[i], no_torque, 0.0, found[i]); });
-  } else if (vehicle_.drive_line == DriveLine::open_axles && mine.size() == 2) {
+    each([&](std::size_t i) { wheels[i] = free(i, at[i], no_torque, 0.0, found.wheels[i]); });
+  } else if (vehicle_.is_open(about) && mine.size() == 2) {
     const std::size_t left = mine[0], right = mine[1];
     if (at[left].load <= 0.0 || at[right].load <= 0.0) {  // a wheel in the air takes no torque, nor does the other
-      for (const std::size_t i : mine) wheels[i] = free(i, at[i], no_torque, 0.0, found[i]);
+      for (const std::size_t i : mine) wheels[i] = free(i, at[i], no_torque, 0.0, found.wheels[i]);
       return;
     }
     const auto unlike = [&](double d) { return roll(left, 1.0 + d) - roll(right, 1.0 - d); };
-    double here = 0.0, f = unlike(here);
-    if (f == 0.0) return;
-    constexpr double end = 0.999;
-    const double direction = f < 0.0 ? 1.0 : -1.0;
-    for (double step = 0.01; std::abs(here) < end; step *= 1.5) {
-      const double next = std::clamp(here + direction * step, -end, end), g = unlike(next);
-      if ((g < 0.0) != (f < 0.0) || g == 0.0) {
-        const double d = gsl::bracketed_root(unlike, {here, f}, {next, g}, 1e-15, 1e-15 * weight() * about.tire.radius,
-                                             "the speeds at equal torque");
-        unlike(d);
-        return;
-      }
-      here = next, f = g;
-    }
-    throw VehicleGaveOut(GaveOut::wheel, direction > 0 ? left : right,
-                         "its differential turns it without end: it takes less torque than the other wheel");
+    FoundRoot* last = vehicle_.has_open_centre() ? &found.axles[axle] : nullptr;
+    const int runs_away = balance_differential(unlike, nearly_all, 1e-15 * weight() * about.tire.radius, last);
+    if (runs_away != 0)
+      throw VehicleGaveOut(GaveOut::wheel, runs_away > 0 ? left : right,
+                           "its differential turns it without end: it takes less torque than the other wheel");
   } else {
     each([&](std::size_t i) {
       const auto largest = [&, in_plane = at[i].speed * std::cos(at[i].yaw)](double at_slip) {
@@ -281,15 +310,66 @@ void SteadyVehicles::roll_axle(std::size_t axle, double slip, const Rims& rims, 
         return spin > top_spin(*about.motor) ? 0.0 : torque_at_wheels(*about.motor, spin);
       };
       if (roll(i, 1.0) > largest(at[i].slip)) {
-        wheels[i] = free(i, at[i], largest, at[i].slip, found[i]);
+        wheels[i] = free(i, at[i], largest, at[i].slip, found.wheels[i]);
         wheels[i].at_largest_torque = true;
       }
     });
   }
 }
 
+void SteadyVehicles::roll_axles(double slip, const Rims& rims, std::vector<OperatingCondition>& at,
+                                std::vector<SteadyWheel>& wheels, Found& found) const {
+  const auto roll = [&](const Rims& asked) {
+    for (std::size_t i = 0; i < wheels_.size(); ++i)
+      if (i == 0 || wheels_[i].axle != wheels_[i - 1].axle) roll_axle(wheels_[i].axle, slip, asked, at, wheels, found);
+  };
+  if (!vehicle_.has_open_centre()) return roll(rims);
+  /// One of its sides: a driven axle.
+  struct Side {
+    std::size_t axle = 0, wheel = 0;  ///< its first one
+    double share = 0.0;
+  };
+  std::vector<Side> sides;
+  for (std::size_t i = 0; i < wheels_.size(); ++i)
+    if (const VehicleAxle& axle = vehicle_.axles[wheels_[i].axle];
+        axle.driven == YesNo::yes && (sides.empty() || sides.back().axle != wheels_[i].axle))
+      sides.push_back({wheels_[i].axle, i, axle.torque_share.value_or(1.0)});
+  const double whole = sides[0].share + sides[1].share;
+  const double first = sides[0].share / whole, second = sides[1].share / whole;
+  /// Torque of an axle at its shaft over its share of the whole, at the rim [N].
+  const auto taken = [&](const Side& side) {
+    double torque = 0.0;
+    for (std::size_t i = 0; i < wheels_.size(); ++i)
+      if (wheels_[i].axle == side.axle) torque += wheels[i].result.torque.value;
+    const VehicleAxle& axle = vehicle_.axles[side.axle];
+    return torque * (1.0 + axle.lead) / axle.tire.radius / (side.share / whole);
+  };
+  std::optional<VehicleGaveOut> said;
+  // Its slower side is slower by exp(-|x|), so that no step brakes its wheels where the other's still drive.
+  const auto unlike = [&](double x) {
+    const double slower = std::exp(-std::abs(x));
+    const double speed_1 = x < 0.0 ? slower : (1.0 - second * slower) / first,
+                 speed_2 = x < 0.0 ? (1.0 - first * slower) / second : slower;
+    Rims asked = rims;
+    for (std::size_t i = 0; i < wheels_.size(); ++i)
+      asked.asked[i] *= wheels_[i].axle == sides[0].axle ? speed_1 : wheels_[i].axle == sides[1].axle ? speed_2 : 1.0;
+    try {
+      roll(asked);
+    } catch (const VehicleGaveOut& error) {
+      if (!said) said = error;
+      return not_a_number;
+    }
+    return taken(sides[0]) - taken(sides[1]);
+  };
+  const int runs_away = balance_differential(unlike, -std::log(1.0 - nearly_all), 1e-15 * weight(), &found.centre);
+  if (runs_away == 0) return;
+  if (said) throw VehicleGaveOut(*said);
+  throw VehicleGaveOut(GaveOut::wheel, sides[runs_away > 0 ? 0 : 1].wheel,
+                       "the centre differential turns its axle without end: it takes less torque than the other one");
+}
+
 SteadyVehicles::Trial SteadyVehicles::trial(const VehicleCondition& at, double slip, const Modes& m,
-                                            std::span<const double> x, std::vector<FoundSlip>& found) const {
+                                            std::span<const double> x, Found& found) const {
   Trial trial;
   SteadyVehicle& v = trial.vehicle;
   v.at = at, v.slip = slip;
@@ -315,9 +395,7 @@ SteadyVehicles::Trial SteadyVehicles::trial(const VehicleCondition& at, double s
                           .pass = wheel.pass()});
   }
   v.wheels.resize(wheels_.size());
-  for (std::size_t i = 0; i < wheels_.size(); ++i)  // from the front: a rut is what the wheels before have made of it
-    if (i == 0 || wheels_[i].axle != wheels_[i - 1].axle)
-      roll_axle(wheels_[i].axle, slip, rims, conditions, v.wheels, found);
+  roll_axles(slip, rims, conditions, v.wheels, found);
 
   double pull = 0.0, left = 0.0, load = 0.0;
   std::vector<VehiclePoint> sunk;
@@ -383,13 +461,16 @@ SteadyVehicles::Trial SteadyVehicles::trial(const VehicleCondition& at, double s
   return trial;
 }
 
-double SteadyVehicles::fastest() const { return vehicle_.drive_line == DriveLine::open_axles ? 0.99 : 1.0; }
+double SteadyVehicles::fastest() const {
+  const auto is_open = [&](const VehicleAxle& axle) { return axle.driven == YesNo::yes && vehicle_.is_open(axle); };
+  return vehicle_.has_open_centre() || std::ranges::any_of(vehicle_.axles, is_open) ? 0.99 : 1.0;
+}
 
 SteadyVehicle SteadyVehicles::at_slip(const VehicleCondition& at, double slip) const {
   const Modes m = modes(at);
   std::vector<double> start(m.count(), 0.0);
   start[0] = 1.0;
-  std::vector<FoundSlip> found_slips(wheels_.size());
+  Found found_slips{std::vector<FoundRoot>(wheels_.size()), std::vector<FoundRoot>(vehicle_.axles.size()), {}};
   Trial last;
   std::vector<double> last_x;  // of `last`
   const auto rest = [&](std::span<const double> x, std::span<double> f) {

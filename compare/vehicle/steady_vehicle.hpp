@@ -133,8 +133,13 @@ struct SteadyVehicle {
 /// to one centre (Ackermann), where no axle is steered the sides' rim speeds differ, and the balance across holds the
 /// centrifugal force too. On the spot the sides turn against each other about the centre at which nothing is left along
 /// and across the vehicle; wheels that roll backward are turned round, and the pull is what is left to turn it, at the
-/// mean half track. Wheels in one axle alone keep their pitch as in a rig, and those in one track their roll. Solved by
-/// gsl::system_root for each slip of the drive line.
+/// mean half track. An open differential's two sides turn about their mean speed, each with its share of the torque:
+///
+///   M_1/s_1 = M_2/s_2,  s_1 w_1 + s_2 w_2 = w of what drives it,  s_1 + s_2 = 1,
+///
+/// s = 1/2 across an axle; at the centre by what the axles declare, M and w at shafts that turn alike where the rims
+/// do but for their leads. Wheels in one axle alone keep their pitch as in a rig, and those in one track their roll.
+/// Solved by gsl::system_root for each slip of the drive line.
 class SteadyVehicles {
  public:
   /// What is referred to must outlive this. `model` answers for one wheel.
@@ -168,27 +173,40 @@ class SteadyVehicles {
     double travel = 0.0;
     std::vector<double> asked{};
   };
-  /// Where the last search for a wheel's own slip ended.
-  struct FoundSlip {
-    double slip = 0.0;
-    double rise = 0.0;  ///< of what is missing in its torque, per slip [N m]; 0: none was found yet
+  /// Where the last search for a wheel's own slip, or for the speeds of a differential, ended.
+  struct FoundRoot {
+    double at = 0.0;
+    double rise = 0.0;  ///< there, of what is missing; 0: none was found yet
+  };
+  struct Found {
+    std::vector<FoundRoot> wheels, axles;
+    FoundRoot centre;
   };
   Turning turn(const VehicleCondition& at, const Modes& modes, SteadyVehicle& vehicle) const;
   Turning turn_on_the_spot(const VehicleCondition& at, const Modes& modes, SteadyVehicle& vehicle) const;
   Modes modes(const VehicleCondition& at) const;
-  /// The largest slip that is looked at. At 100 % a drive line turns without end: across an open axle no wheel could
-  /// then turn slower than the other.
+  /// The largest slip that is looked at. At 100 % a drive line turns without end: across an open differential nothing
+  /// could then turn slower than the other side.
   double fastest() const;
   Trial trial(const VehicleCondition& at, double slip, const Modes& modes, std::span<const double> x,
-              std::vector<FoundSlip>& found) const;
+              Found& found) const;
   SteadyWheel rolled(std::size_t wheel, const OperatingCondition& at) const;
   /// The wheel at the slip at which its torque is that of `torque(slip)`: from where the last search for it ended, as
   /// long as secants come much closer; else the one next to `from`, upward where its torque is less there, else
   /// downward.
   SteadyWheel free(std::size_t wheel, OperatingCondition at, const std::function<double(double)>& torque, double from,
-                   FoundSlip& found) const;
+                   FoundRoot& found) const;
+  /// All axles, from the front: a rut is what the wheels before have made of it.
+  void roll_axles(double slip, const Rims& rims, std::vector<OperatingCondition>& at, std::vector<SteadyWheel>& wheels,
+                  Found& found) const;
+  /// Turns the sides of a differential unlike until nothing is left of `unlike(x)`, what the first takes less what the
+  /// second does, where the first is the faster the larger x is: 0. From where the last search ended, where `found`
+  /// says so; else outward from equal speeds, 0. An x that is not answered (not a number) is approached in shorter
+  /// steps. Where something is left up to `most` to either side: 1 where the first side runs away, else -1.
+  static int balance_differential(const std::function<double(double)>& unlike, double most, double f_tol,
+                                  FoundRoot* found);
   void roll_axle(std::size_t axle, double slip, const Rims& rims, std::vector<OperatingCondition>& at,
-                 std::vector<SteadyWheel>& wheels, std::vector<FoundSlip>& found) const;
+                 std::vector<SteadyWheel>& wheels, Found& found) const;
 
   const VehicleCase& vehicle_;
   const std::vector<VehicleWheel>& wheels_;

@@ -33,6 +33,55 @@ bool in_a_slanting_line(const std::vector<VehicleWheel>& wheels) {
   });
 }
 
+/// Why a drive line has no differentials; empty where it has.
+std::string without_differentials(DriveLine line) {
+  if (line == DriveLine::motors) return "the drive_line 'motors' has a motor a wheel and no differentials";
+  if (line == DriveLine::sides) return "the drive_line 'sides' turns each side by itself and has no differentials";
+  return "";
+}
+
+std::string contradiction_in_centre(const VehicleCase& vehicle) {
+  if (!vehicle.centre_differential) return "";
+  if (const std::string none = without_differentials(vehicle.drive_line); !none.empty())
+    return none + ": leave out 'centre_differential', or say 'locked' or 'open_axles'";
+  const auto driven = std::ranges::count(vehicle.axles, YesNo::yes, &VehicleAxle::driven);
+  if (vehicle.has_open_centre() && driven != 2)
+    return fmt::format(
+        "an open centre_differential lies between two driven axles, and {} driven: drive two, or say "
+        "'locked'",
+        driven == 1 ? "1 is" : fmt::format("{} are", driven));
+  return "";
+}
+
+std::string contradiction_in(const VehicleAxle& axle, const VehicleCase& vehicle) {
+  const bool motors = vehicle.drive_line == DriveLine::motors, driven = axle.driven == YesNo::yes;
+  if (axle.motor && !motors)
+    return fmt::format("axle '{}' has a motor, which belongs to the drive_line 'motors': give it to the vehicle",
+                       axle.name);
+  if (axle.motor && !driven) return fmt::format("axle '{}' has a motor and is not driven", axle.name);
+  if (axle.motor && axle.largest_torque)
+    return fmt::format("axle '{}' has a motor and a largest_torque: give one of the two", axle.name);
+  if (axle.largest_steer && axle.steered == YesNo::no)
+    return fmt::format("axle '{}' has a largest_steer and is not steered", axle.name);
+  if (axle.largest_torque && !motors)
+    return fmt::format("axle '{}' has a largest_torque, which belongs to the drive_line 'motors'", axle.name);
+  if (axle.largest_torque && !driven) return fmt::format("axle '{}' has a largest_torque and is not driven", axle.name);
+  if (axle.differential) {
+    if (const std::string none = without_differentials(vehicle.drive_line); !none.empty())
+      return fmt::format("{}: leave out 'differential' of axle '{}', or say 'locked' or 'open_axles'", none, axle.name);
+    if (!driven) return fmt::format("axle '{}' has a differential and is not driven", axle.name);
+    if (!axle.track)
+      return fmt::format("axle '{}' has a differential and one wheel: give it a 'track', or leave it out", axle.name);
+  }
+  if (axle.torque_share && !vehicle.has_open_centre())
+    return fmt::format("axle '{}' has a torque_share, which belongs to 'centre_differential: open' of the vehicle",
+                       axle.name);
+  if (axle.torque_share && !driven) return fmt::format("axle '{}' has a torque_share and is not driven", axle.name);
+  if (std::ranges::count(vehicle.axles, axle.name, &VehicleAxle::name) > 1)
+    return fmt::format("two axles are called '{}'", axle.name);
+  return "";
+}
+
 VehicleAxle read_axle(const YamlNode& node, std::size_t number, const Library& library, const Reading& reading) {
   VehicleAxle axle = read_mapping<VehicleAxle>(node, reading, {"tire"});
   axle.tire =
@@ -68,23 +117,9 @@ std::string contradiction(const VehicleCase& vehicle) {
     return "some axles have a stiffness and others none: give it for all, or for none";
   if (vehicle.motor && vehicle.drive_line == DriveLine::motors)
     return "the drive_line 'motors' has a motor a wheel: give 'motor' to the axles, not to the vehicle";
-  for (const VehicleAxle& axle : vehicle.axles) {
-    if (axle.motor && vehicle.drive_line != DriveLine::motors)
-      return fmt::format("axle '{}' has a motor, which belongs to the drive_line 'motors': give it to the vehicle",
-                         axle.name);
-    if (axle.motor && axle.driven == YesNo::no)
-      return fmt::format("axle '{}' has a motor and is not driven", axle.name);
-    if (axle.motor && axle.largest_torque)
-      return fmt::format("axle '{}' has a motor and a largest_torque: give one of the two", axle.name);
-    if (axle.largest_steer && axle.steered == YesNo::no)
-      return fmt::format("axle '{}' has a largest_steer and is not steered", axle.name);
-    if (axle.largest_torque && vehicle.drive_line != DriveLine::motors)
-      return fmt::format("axle '{}' has a largest_torque, which belongs to the drive_line 'motors'", axle.name);
-    if (axle.largest_torque && axle.driven == YesNo::no)
-      return fmt::format("axle '{}' has a largest_torque and is not driven", axle.name);
-    if (std::ranges::count(vehicle.axles, axle.name, &VehicleAxle::name) > 1)
-      return fmt::format("two axles are called '{}'", axle.name);
-  }
+  for (const VehicleAxle& axle : vehicle.axles)
+    if (const std::string wrong = contradiction_in(axle, vehicle); !wrong.empty()) return wrong;
+  if (const std::string wrong = contradiction_in_centre(vehicle); !wrong.empty()) return wrong;
   if (in_a_slanting_line(wheels_of(vehicle))) return "all wheels stand in one slanting line, on which nothing stands";
   return "";
 }
@@ -111,6 +146,11 @@ VehicleCase parse_vehicle_case(const SourceText& source, const Library& library,
     vehicle.effects = read_effects(*list, effects, reading);
   if (const YamlNode* drive = value_of(document, "drive", Need::optional, "how it is driven in time", reading))
     vehicle.drive = read_vehicle_drive(*drive, near, reading);
+  for (std::size_t i = 0; i < vehicle.axles.size(); ++i)
+    if (const std::string wrong = contradiction_in(vehicle.axles[i], vehicle); !wrong.empty())
+      reading.refuse(axles.items[i], wrong);
+  if (const std::string wrong = contradiction_in_centre(vehicle); !wrong.empty())
+    reading.refuse(*document.find("centre_differential"), wrong);
   if (const std::string wrong = contradiction(vehicle); !wrong.empty()) reading.refuse(axles, wrong);
   return vehicle;
 }

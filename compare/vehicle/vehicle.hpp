@@ -40,21 +40,34 @@ constexpr std::array<Word<DriveLine>, 4> words_of(std::type_identity<DriveLine>)
            {"motors", DriveLine::motors}}};
 }
 
+/// Whether two shafts that are driven together may turn unlike.
+enum class Differential {
+  locked,  ///< both have one speed
+  open,    ///< one mean speed; the torque is shared
+};
+
+constexpr std::array<Word<Differential>, 2> words_of(std::type_identity<Differential>) {
+  return {{{"locked", Differential::locked}, {"open", Differential::open}}};
+}
+
 /// Two wheels beside each other, or one.
 struct VehicleAxle {
   std::string name{};
-  double x = 0.0;                          ///< [m]
-  double y = 0.0;                          ///< of its middle [m]
-  std::optional<double> track{};           ///< between the middles of its two wheels [m], > 0; absent: it has one wheel
-  YesNo driven = YesNo::yes;               ///< no: its wheels roll freely
-  YesNo steered = YesNo::no;               ///< whether it may be turned to keep the vehicle on its line
-  std::optional<double> largest_steer{};   ///< of its middle to either side [rad], > 0; absent: nothing stops it
-  double lead = 0.0;                       ///< its rim speed over that of the drive line, less 1 [-], > -1
-  std::optional<double> largest_torque{};  ///< of a wheel's motor [N m], > 0
-  std::optional<GearedMotor> motor{};      ///< of each of its wheels; its gear ratio is over that wheel's revolutions
-  std::optional<double> stiffness{};       ///< of a wheel's suspension and tire [N/m], > 0; absent: all are alike
-  std::optional<double> inertia{};         ///< of a wheel and what spins with it [kg m^2], > 0; absent: a tenth of
-                                           ///< the mass that it carries, times its radius squared
+  double x = 0.0;                         ///< [m]
+  double y = 0.0;                         ///< of its middle [m]
+  std::optional<double> track{};          ///< between the middles of its two wheels [m], > 0; absent: it has one wheel
+  YesNo driven = YesNo::yes;              ///< no: its wheels roll freely
+  YesNo steered = YesNo::no;              ///< whether it may be turned to keep the vehicle on its line
+  std::optional<double> largest_steer{};  ///< of its middle to either side [rad], > 0; absent: nothing stops it
+  double lead = 0.0;                      ///< its rim speed over that of the drive line, less 1 [-], > -1
+  std::optional<Differential> differential{};  ///< between its two wheels; absent: as the drive line has it
+  std::optional<double> torque_share{};        ///< of an open centre differential, beside that of the other axle [-],
+                                               ///< > 0; absent: 1
+  std::optional<double> largest_torque{};      ///< of a wheel's motor [N m], > 0
+  std::optional<GearedMotor> motor{};  ///< of each of its wheels; its gear ratio is over that wheel's revolutions
+  std::optional<double> stiffness{};   ///< of a wheel's suspension and tire [N/m], > 0; absent: all are alike
+  std::optional<double> inertia{};     ///< of a wheel and what spins with it [kg m^2], > 0; absent: a tenth of
+                                       ///< the mass that it carries, times its radius squared
   Tire tire{};
 };
 
@@ -101,14 +114,22 @@ struct VehicleCase {
   double mass = 0.0;  ///< [kg], > 0
   VehiclePoint centre_of_gravity{};
   DriveLine drive_line = DriveLine::locked;
-  std::optional<double> power{};       ///< that reaches the wheels at most [W], > 0
-  std::optional<GearedMotor> motor{};  ///< of the drive line; its gear ratio is over line_radius
+  std::optional<Differential> centre_differential{};  ///< between its two driven axles; absent: locked
+  std::optional<double> power{};                      ///< that reaches the wheels at most [W], > 0
+  std::optional<GearedMotor> motor{};                 ///< of the drive line; its gear ratio is over line_radius
   std::vector<VehicleAxle> axles{};
   VehicleHitch hitch{};
   Soil soil{};
   std::vector<EffectChoice> effects{};
   VehicleCondition condition{};
   VehicleDrive drive{};
+
+  bool has_open_centre() const { return centre_differential == Differential::open; }
+  /// Whether the wheels of a driven axle of its, where they are two, turn unlike at the same torque.
+  bool is_open(const VehicleAxle& axle) const {
+    const bool by_line = drive_line == DriveLine::open_axles;
+    return axle.differential ? axle.differential == Differential::open : by_line;
+  }
 
   /// At which the spin of the drive line is told [m]: of the first driven axle's wheels.
   double line_radius() const {
@@ -140,6 +161,10 @@ void describe(Visitor& v, std::type_identity<VehicleAxle>) {
            "of the middle between its wheels, to either side; absent: nothing stops it");
   v.number("lead", &A::lead, Measure{"-", {.lower = -1.0, .lower_open = true}}, Need::optional,
            "by how much its rim is faster than the drive line's");
+  v.choice("differential", &A::differential, Need::optional,
+           "between its two wheels: one speed, or one torque; absent: as the drive line has it");
+  v.number("torque_share", &A::torque_share, Measure{"-", above_zero}, Need::optional,
+           "of an open centre differential, beside that of the other driven axle; absent: 1");
   v.number("largest_torque", &A::largest_torque, Measure{"N m", above_zero}, Need::optional,
            "of a wheel's motor, with the drive line 'motors'");
   v.group("motor", &A::motor, Need::optional, "of each wheel, in place of largest_torque: torque against speed");
@@ -195,6 +220,8 @@ void describe(Visitor& v, std::type_identity<VehicleCase>) {
   v.number("mass", &V::mass, Measure{"kg", above_zero}, Need::required, "of the whole vehicle, loaded");
   v.group("centre_of_gravity", &V::centre_of_gravity, Need::required, "where its weight acts");
   v.choice("drive_line", &V::drive_line, Need::optional, "how the wheels are driven");
+  v.choice("centre_differential", &V::centre_differential, Need::optional,
+           "between its two driven axles: one speed, or shares of the torque; absent: locked");
   v.number("power", &V::power, Measure{"kW", above_zero}, Need::optional, "that reaches the wheels at most");
   v.group("motor", &V::motor, Need::optional,
           "that turns the driven wheels, but for the drive line 'motors': torque against speed");

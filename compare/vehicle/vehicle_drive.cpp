@@ -87,6 +87,14 @@ std::vector<Waypoint> way_of(const VehicleCase& question) {
   return {throughout};
 }
 
+/// What it drives in time are wheels of one speed: across an axle both sides are alike, along it they are not.
+void require_one_speed(const VehicleCase& question) {
+  if (question.has_open_centre())
+    throw InputError(
+        "a vehicle is driven in time without an open centre differential: all driven axles turn together\n  hint: "
+        "--centre-differential locked");
+}
+
 void require_both_sides_alike(const VehicleCase& question, const std::vector<VehicleWheel>& wheels) {
   const char* alike = "a vehicle driven in time is alike on both sides: ";
   if (question.condition.cross_slope != 0.0)
@@ -108,6 +116,7 @@ class VehicleRide {
   VehicleRide(const VehicleCase& question, const std::vector<VehicleWheel>& wheels,
               const bekker_wong::DriveNumerics& numerics)
       : question_(question), way_(angles_along(way_of(question))), weight_(question.mass * gravity_of(question.soil)) {
+    require_one_speed(question);
     require_both_sides_alike(question, wheels);
     build(wheels, numerics);
     start();

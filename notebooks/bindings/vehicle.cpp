@@ -31,6 +31,7 @@ std::vector<compare::VehicleWheel> wheels_with_tires(const VehicleCase& vehicle)
   if (vehicle.motor) refuse(contradiction(*vehicle.motor));
   for (const VehicleAxle& axle : vehicle.axles)
     if (axle.motor) refuse(contradiction(*axle.motor));
+  refuse(contradiction(vehicle));
   return wheels_of(vehicle);
 }
 
@@ -85,6 +86,7 @@ Document driven(const VehicleCase& question, int samples, bool rigid, bool no_lu
 
 void bind_parts(py::module_& module) {
   bind_words<compare::DriveLine>(module, "DriveLine", "How the engine's rotation reaches the driven wheels.");
+  bind_words<compare::Differential>(module, "Differential", "Whether two shafts that are driven together turn unlike.");
   py::class_<compare::VehiclePoint> point(module, "VehiclePoint",
                                           "A point of the vehicle: x forward, y to the left, z up from the ground.");
   described(point);

@@ -296,6 +296,30 @@ TEST(StandardErrors, OfAFitCancelWhereTheirParametersDo) {
   EXPECT_NEAR(alike.sinkage.std_error, std::sqrt(2.0) * apart.sinkage.std_error, 1e-6 * alike.sinkage.std_error);
 }
 
+// Of a sum of channels: one alone is the channel's own to the bit; of one doubt the sum of the signed slopes.
+TEST(StandardErrors, OfASumOfChannels) {
+  Scenario scenario = sand_scenario();
+  const OperatingCondition at = bed::driven();
+  const RolledWheel balanced = RollingWheel(scenario.tire, values_of(soil_of(scenario)), {}, scenario.bin).roll(at);
+  scenario.misfit = {3.0, 0.2, 0.0, 0.0};
+  const TractionResult own = BekkerWong().evaluate(scenario, at);
+  EXPECT_EQ(ChannelErrors(balanced, scenario, {}).of({1.0}), own.drawbar_pull.std_error);
+  EXPECT_EQ(ChannelErrors(balanced, scenario, {}).of({0.0, 1.0}), own.torque.std_error);
+
+  for (const SoilParameter& p : soil_parameters) (soil_of(scenario).*p.value).std_error = 0;
+  EXPECT_EQ(ChannelErrors(balanced, scenario, {}).of({2.0, 10.0}), std::hypot(2.0 * 3.0, 10.0 * 0.2));
+  scenario.misfit = {};
+  const double sd = 2e3;
+  soil_of(scenario).cohesion.std_error = sd;
+  const SoilValues soil = values_of(soil_of(scenario));
+  const auto cohesion = static_cast<std::size_t>(
+      std::ranges::find(soil_parameters, std::string("cohesion"), &SoilParameter::name) - soil_parameters.begin());
+  const auto slopes =
+      BalanceDerivatives(scenario.tire, soil, {}, scenario.bin, at, balanced.balance_angle).by(cohesion, sd);
+  const double sum = (2.0 * slopes[0] - 10.0 * slopes[1]) * sd;
+  EXPECT_NEAR(ChannelErrors(balanced, scenario, {}).of({2.0, -10.0}), std::abs(sum), 1e-12 * std::abs(sum));
+}
+
 // With k = P/z_0^n, n and P independent: what a fit with these covariances says, and far less than n and k apart.
 TEST(StandardErrors, OfAnExponentLeaveThePressureAtItsReference) {
   Scenario scenario = sand_scenario();

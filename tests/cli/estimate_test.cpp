@@ -703,8 +703,8 @@ TEST(Estimate, ATireIsAsStiffAsItsMakersTable) {
 // A tire with lugs has their thrust, and the answer says by which form; --no-lugs: the smooth wheel, of which no more
 // is told. A wheel whose effects are named keeps to them.
 TEST(Estimate, ATireWithLugsHasThem) {
-  const std::string wheel = "--soil dry-sand --radius 250mm --width 100mm --load 400N ";
-  const std::string lugged = wheel + "--lug-height 8mm --lug-count 24 ", slip = "--slip 20% ";
+  const std::string large = "--soil dry-sand --radius 250mm --width 100mm --load 400N ";
+  const std::string lugged = large + "--lug-height 8mm --lug-count 24 ", slip = "--slip 20% ";
   for (const char* command : {"estimate ", "limits ", "explain "}) {
     const Outcome r = soilbin(command + lugged + (std::string(command) == "limits " ? "" : slip));
     ASSERT_EQ(r.status, 0) << r.err;
@@ -712,7 +712,7 @@ TEST(Estimate, ATireWithLugsHasThem) {
   }
   const auto row = [](const std::string& flags) { return soilbin("estimate " + flags + "--json").json()["rows"][0]; };
   const nlohmann::json with = row(lugged + slip), named = row(lugged + slip + "--effect lug_thrust:passive_blade "),
-                       without = row(lugged + slip + "--no-lugs "), smooth = row(wheel + slip);
+                       without = row(lugged + slip + "--no-lugs "), smooth = row(large + slip);
   EXPECT_EQ(with["drawbar_pull"], named["drawbar_pull"]);
   EXPECT_EQ(without["drawbar_pull"], smooth["drawbar_pull"]);
   EXPECT_GT(with["drawbar_pull"], without["drawbar_pull"]);
@@ -720,7 +720,7 @@ TEST(Estimate, ATireWithLugsHasThem) {
   const Outcome bare = soilbin("estimate " + lugged + slip + "--no-lugs");
   EXPECT_EQ(bare.err, "");
   EXPECT_THAT(bare.out, HasSubstr("b 100 mm, smooth)"));
-  EXPECT_THAT(soilbin("estimate " + wheel + slip + "--no-lugs").err, HasSubstr("--no-lugs is ignored"));
+  EXPECT_THAT(soilbin("estimate " + large + slip + "--no-lugs").err, HasSubstr("--no-lugs is ignored"));
   EXPECT_EQ(soilbin("estimate " + lugged + slip + "--no-lugs --effect lug_thrust").status, 2);
   EXPECT_THAT(soilbin("run paper-straight --recorded --no-lugs --load 4kN --slip 20%"),
               Refuses(HasSubstr("grains meet the tire with its lugs\n  hint: --model bekker_wong")));

@@ -71,6 +71,30 @@ TEST(VehicleFile, IsRefusedWithItsPlaceAndTheRightWord) {
   EXPECT_THAT(message_of(one_wheel + "drive_line: open\n"), HasSubstr("open_axles"));
 }
 
+TEST(VehicleFile, RefusesDifferentialsThatItsDriveLineDoesNotHave) {
+  const auto two_axles = [](const std::string& vehicle, const std::string& rear) {
+    return message_of(changed("  - {name: wheel, x: 0 m, tire: rover-wheel}\n",
+                              "  - {name: front, x: 1 m, track: 0.8 m, tire: rover-wheel}\n"
+                              "  - {name: rear, x: 0 m, track: 0.8 m, tire: rover-wheel" +
+                                  rear + "}\n" + vehicle));
+  };
+  using testing::AllOf;
+  EXPECT_EQ(two_axles("centre_differential: open\n", ", differential: open, torque_share: 2"), "it was read");
+  EXPECT_THAT(two_axles("drive_line: motors\n", ", differential: open"),
+              AllOf(HasSubstr("here.yaml:7:5"), HasSubstr("'motors'"), HasSubstr("no differentials"),
+                    HasSubstr("'differential' of axle 'rear'")));
+  EXPECT_THAT(two_axles("drive_line: sides\ncentre_differential: locked\n", ""),
+              AllOf(HasSubstr("here.yaml:9:22"), HasSubstr("'sides'"), HasSubstr("'centre_differential'")));
+  EXPECT_THAT(two_axles("centre_differential: open\n", ", driven: no"),
+              AllOf(HasSubstr("here.yaml:8:22"), HasSubstr("between two driven axles, and 1 is driven")));
+  EXPECT_THAT(two_axles("centre_differential: opened\n", ""), AllOf(HasSubstr("here.yaml:8"), HasSubstr("'open'")));
+  EXPECT_THAT(two_axles("", ", driven: no, differential: open"),
+              HasSubstr("'rear' has a differential and is not driven"));
+  EXPECT_THAT(two_axles("", ", torque_share: 2"), HasSubstr("'centre_differential: open' of the vehicle"));
+  EXPECT_THAT(message_of(changed("tire: rover-wheel", "differential: open, tire: rover-wheel")),
+              AllOf(HasSubstr("here.yaml:6:5"), HasSubstr("one wheel")));
+}
+
 TEST(VehicleFile, OfTheLibraryIsRead) {
   for (const char* name : {"truck", "tractor", "rover"}) {
     const VehicleCase vehicle = library_vehicle(name);

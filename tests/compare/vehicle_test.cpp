@@ -264,6 +264,147 @@ TEST(Vehicle, AnOpenAxleHasEqualTorques) {
   }
 }
 
+// Differentials: which of them is open or locked.
+
+/// Its rear axle locked beside an open one in front.
+VehicleCase open_in_front() {
+  VehicleCase made = rover();
+  made.axles[0].differential = Differential::open, made.axles[1].differential = Differential::locked;
+  return made;
+}
+
+/// Torque of an axle at its shaft, at the rim [N].
+double shaft_thrust(const SteadyVehicle& vehicle, const VehicleAxle& axle, std::size_t left) {
+  const double torque = vehicle.wheels[left].result.torque.value + vehicle.wheels[left + 1].result.torque.value;
+  return torque * (1.0 + axle.lead) / axle.tire.radius;
+}
+
+TEST(VehicleDifferential, ThatSaysWhatItsDriveLineSaysChangesNoBit) {
+  const VehicleCondition at{.slope = 0.05, .cross_slope = 0.1};
+  const std::pair<DriveLine, Differential> alike[] = {{DriveLine::locked, Differential::locked},
+                                                      {DriveLine::open_axles, Differential::open}};
+  for (const auto& [line, differential] : alike) {
+    VehicleCase question = rover();
+    question.drive_line = line;
+    const auto wheels = wheels_of(question);
+    const SteadyVehicle before = SteadyVehicles(question, wheels, soft).at_slip(at, 0.2);
+    for (VehicleAxle& axle : question.axles) axle.differential = differential;
+    question.centre_differential = Differential::locked;
+    const SteadyVehicle after = SteadyVehicles(question, wheels, soft).at_slip(at, 0.2);
+    EXPECT_EQ(after.pull, before.pull);
+    EXPECT_EQ(after.crab, before.crab);
+    for (std::size_t i = 0; i < wheels.size(); ++i) {
+      EXPECT_EQ(after.wheels[i].result.torque.value, before.wheels[i].result.torque.value);
+      EXPECT_EQ(after.wheels[i].rim_speed, before.wheels[i].rim_speed);
+    }
+  }
+}
+
+TEST(VehicleDifferential, OnLevelGroundAnOpenAxleIsALockedOneToTheBit) {
+  VehicleCase question = rover();
+  const auto wheels = wheels_of(question);
+  const SteadyVehicle locked = SteadyVehicles(question, wheels, soft).pulling({.pull = 20.0});
+  question.axles[1].differential = Differential::open;
+  const SteadyVehicle open = SteadyVehicles(question, wheels, soft).pulling({.pull = 20.0});
+  EXPECT_EQ(open.slip, locked.slip);
+  for (std::size_t i = 0; i < wheels.size(); ++i)
+    EXPECT_EQ(open.wheels[i].result.torque.value, locked.wheels[i].result.torque.value);
+}
+
+TEST(VehicleDifferential, OnACrossSlopeAnOpenAxleHasOneTorqueAndALockedOneOneSpeed) {
+  const VehicleCase question = open_in_front();
+  const auto wheels = wheels_of(question);
+  const SteadyVehicle v = SteadyVehicles(question, wheels, soft).at_slip({.cross_slope = 0.15}, 0.3);
+  const SteadyWheel &front_left = v.wheels[0], &front_right = v.wheels[1], &rear_left = v.wheels[2],
+                    &rear_right = v.wheels[3];
+  EXPECT_NEAR(front_left.result.torque.value, front_right.result.torque.value, 1e-10);
+  EXPECT_GT(front_left.rim_speed, 1.01 * front_right.rim_speed);  // the upper wheel is the lighter one
+  EXPECT_NEAR(rear_left.rim_speed, rear_right.rim_speed, 1e-12);
+  EXPECT_LT(rear_left.result.torque.value, 0.9 * rear_right.result.torque.value);
+  EXPECT_NEAR((front_left.rim_speed + front_right.rim_speed) / 2, rear_left.rim_speed, 1e-12);
+}
+
+TEST(VehicleDifferential, AnOpenCentreSharesTheTorqueInHalves) {
+  VehicleCase question = rover();
+  question.centre_differential = Differential::open;
+  question.axles[0].lead = 0.03, question.axles[0].tire.radius = 0.12;  // its shaft turns as the rear one's does
+  const auto wheels = wheels_of(question);
+  for (const double slip : {-0.1, 0.2, 0.6}) {
+    const SteadyVehicle v = SteadyVehicles(question, wheels, soft).at_slip({.slope = 0.1}, slip);
+    EXPECT_NEAR(shaft_thrust(v, question.axles[0], 0), shaft_thrust(v, question.axles[1], 2), 1e-9);
+    const double faster = v.wheels[0].rim_speed / 1.03 - v.wheels[2].rim_speed;
+    EXPECT_GT(faster * slip, 0.0);  // uphill the front axle is the lighter one: it slips more
+    EXPECT_NEAR((v.wheels[0].rim_speed / 1.03 + v.wheels[2].rim_speed) / 2, 1.0 / speed_ratio(slip), 1e-9);
+  }
+}
+
+// Torque 2 s N r of each wheel: s_f N_f/s_1 = s_r N_r/s_2 with s_1/(1 - s_f) + s_2/(1 - s_r) = 1/(1 - s).
+TEST(VehicleDifferential, AnOpenCentreOnHardGroundIsItsClosedForm) {
+  VehicleCase question = rover();
+  question.centre_differential = Differential::open;
+  question.axles[0].torque_share = 1.0, question.axles[1].torque_share = 2.0;
+  const auto wheels = wheels_of(question);
+  const SteadyVehicle v = SteadyVehicles(question, wheels, hard).at_slip({}, 0.2);
+  const double front = v.wheels[0].result.at.slip, rear = v.wheels[2].result.at.slip;
+  EXPECT_NEAR(2 * front * load_of(v, {0, 1}), rear * load_of(v, {2, 3}), 1e-9);
+  EXPECT_NEAR((1 / (1 - front) + 2 / (1 - rear)) / 3, 1 / (1 - 0.2), 1e-12);
+}
+
+TEST(VehicleDifferential, AnAxleInTheAirLeavesTheOtherNoTorqueThroughAnOpenCentre) {
+  VehicleCase question = rover();
+  question.axles = {axle("front", 2.0), axle("middle", 1.0), axle("rear", 0.0)};
+  question.axles[1].driven = YesNo::no;
+  question.centre_of_gravity = {1.9, 0.0, 0.0};
+  const auto wheels = wheels_of(question);
+  question.centre_differential = Differential::locked;
+  EXPECT_GT(SteadyVehicles(question, wheels, hard).at_slip({}, 0.1).pull, 10.0);
+  question.centre_differential = Differential::open;
+  const SteadyVehicle v = SteadyVehicles(question, wheels, hard).at_slip({}, 0.1);
+  EXPECT_TRUE(v.wheels[4].lifted);
+  EXPECT_NEAR(v.wheels[0].result.torque.value, 0.0, 1e-9);
+  EXPECT_NEAR(v.pull, 0.0, 1e-9);
+}
+
+TEST(VehicleDifferential, OnTheOtherSlopeIsItsMirrorImageAndPowersAddUp) {
+  for (const bool open_centre : {false, true}) {
+    VehicleCase question = open_in_front();
+    if (open_centre) question.centre_differential = Differential::open;
+    question.axles[0].steered = YesNo::yes;
+    const auto wheels = wheels_of(question);
+    const SteadyVehicles vehicles(question, wheels, soft);
+    const SteadyVehicle left = vehicles.at_slip({.slope = 0.05, .cross_slope = 0.12}, 0.25);
+    const SteadyVehicle right = vehicles.at_slip({.slope = 0.05, .cross_slope = -0.12}, 0.25);
+    EXPECT_NEAR(left.pull, right.pull, 1e-7 * vehicles.weight());
+    EXPECT_NEAR(left.crab, -right.crab, 1e-8);
+    for (const auto& [one, other] : {std::pair{0, 1}, {1, 0}, {2, 3}, {3, 2}})
+      EXPECT_NEAR(left.wheels[static_cast<std::size_t>(one)].result.torque.value,
+                  right.wheels[static_cast<std::size_t>(other)].result.torque.value, 1e-7 * vehicles.weight());
+    const VehiclePower& p = left.power;
+    EXPECT_NEAR(p.into_wheels, p.drawbar + p.climbing + p.slip_loss + p.soil_loss, 1e-9 * p.into_wheels);
+  }
+}
+
+// Whose rear wheels may turn unlike goes round with less power, and with less torque on its outer rear wheel's rim.
+TEST(VehicleDifferential, InATurnAnOpenAxleScuffsLess) {
+  VehicleCase question = rover();
+  question.axles[0].steered = YesNo::yes, question.axles[0].driven = YesNo::no;
+  const auto wheels = wheels_of(question);
+  const auto turning = [&](Differential rear) {
+    question.axles[1].differential = rear;
+    return SteadyVehicles(question, wheels, soft).pulling({.speed = 0.2, .curvature = 0.3});
+  };
+  const SteadyVehicle locked = turning(Differential::locked), open = turning(Differential::open);
+  const auto unlike = [](const SteadyVehicle& v) {
+    return std::abs(v.wheels[3].result.torque.value - v.wheels[2].result.torque.value);
+  };
+  EXPECT_LT(open.power.into_wheels, locked.power.into_wheels);
+  EXPECT_LT(open.wheels[2].result.torque.value + open.wheels[3].result.torque.value,
+            locked.wheels[2].result.torque.value + locked.wheels[3].result.torque.value);
+  EXPECT_LT(unlike(open), 1e-9);
+  EXPECT_GT(unlike(locked), 0.1);
+  EXPECT_LT(open.wheels[2].rim_speed, open.wheels[3].rim_speed);  // the inner one is on the left
+}
+
 TEST(Vehicle, AMotorGivesNoMoreThanItsLargestTorque) {
   VehicleCase question = rover();
   question.drive_line = DriveLine::motors;
@@ -360,6 +501,20 @@ TEST(VehicleFile, IsWrittenAndReadToTheBit) {
   EXPECT_EQ(read.axles[1].tire.radius, written.axles[1].tire.radius);
   EXPECT_EQ(read.soil.semi_empirical->k_phi.value, written.soil.semi_empirical->k_phi.value);
   EXPECT_EQ(read.drive.profile[1].longitudinal_incline, 0.2);
+}
+
+TEST(VehicleFile, WritesItsDifferentials) {
+  VehicleCase written = open_in_front();
+  written.centre_differential = Differential::open, written.axles[1].torque_share = 2.0 / 3.0;
+  for (VehicleAxle& axle : written.axles) axle.tire.name = "wheel";
+  const bekker_wong::CatalogueVocabulary effects;
+  const std::string text = write_vehicle_case(written, effects);
+  const VehicleCase read = parse_vehicle_case(make_source_text(text, "vehicle.yaml"), Library(), effects);
+  EXPECT_EQ(write_vehicle_case(read, effects), text);
+  EXPECT_EQ(read.centre_differential, Differential::open);
+  EXPECT_EQ(read.axles[0].differential, Differential::open);
+  EXPECT_EQ(read.axles[1].differential, Differential::locked);
+  EXPECT_EQ(read.axles[1].torque_share, written.axles[1].torque_share);
 }
 
 TEST(Vehicle, SaysWhichWheelGaveOut) {

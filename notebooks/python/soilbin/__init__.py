@@ -27,6 +27,7 @@ from soilbin._soilbin import (
     Construction,
     ContactPair,
     Controller,
+    Differential,
     Drive,
     DriveLine,
     EffectChoice,
@@ -85,7 +86,7 @@ from soilbin.questions import SoilbinWarning, conditions, estimate, names, run_s
 from soilbin.vehicles import drive_vehicle, turn_vehicle, vehicle_beside_measured, vehicle_on_soil, wheels_frame
 
 __all__ = [
-    "Bin", "Case", "ConeIndex", "Construction", "ContactPair", "Controller", "Drive", "DriveLine", "EffectChoice", "EffectForm", "Estimate", "ForceFrame",
+    "Bin", "Case", "ConeIndex", "Construction", "ContactPair", "Controller", "Differential", "Drive", "DriveLine", "EffectChoice", "EffectForm", "Estimate", "ForceFrame",
     "GearedMotor", "GrainCohesion", "GrainFraction", "GranularSoil", "InputError", "LugPattern", "Lugs", "Model", "ModelKind", "NoSolution", "OperatingCondition",
     "ResistiveForce", "ResistiveForceSoil", "RollingResistance", "RunStopped", "Scenario", "SemiEmpiricalSoil", "Shelf", "SlipBy", "Soil", "SoilbinWarning",
     "Tire", "TorquePoint", "TractionResult", "Vehicle", "VehicleAxle", "VehicleCondition", "VehicleDrive", "VehicleHitch",
