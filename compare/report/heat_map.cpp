@@ -84,6 +84,12 @@ std::string heat_map_svg(const HeatMap& map) {
       body);
 }
 
+std::string on_paper(std::string svg) {
+  svg.insert(svg.find('>') + 1, R"(<rect width="100%" height="100%" fill="#ffffff"/><g font-family="sans-serif">)");
+  svg.insert(svg.rfind("</svg>"), "</g>");
+  return svg;
+}
+
 namespace {
 
 Json one_map(const HeatMap& map) {

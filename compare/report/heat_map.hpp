@@ -29,6 +29,9 @@ std::string heat_class(const HeatCell& cell);
 /// zero, orange above, so that most colour-blind people tell them apart; the sign is in the text as well.
 std::string heat_map_svg(const HeatMap& map);
 
+/// That element as a picture by itself, whatever is behind it: on white paper, in a sans-serif face.
+std::string on_paper(std::string svg);
+
 // Heat maps of which one is shown at a time, picked by sliders; without scripts the first alone.
 //
 //   const SlidingMap map{{{"slip", {"5 %", "20 %"}}, {"lug height", {"0 mm", "30 mm"}}}, maps};   // 4 maps

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "compare/report/heat_map.hpp"
 #include "compare/report/json_fields.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/csv.hpp"
@@ -249,7 +250,7 @@ class MarkdownWriter {
       picture(drawings.name.empty()       ? next_name()
               : drawings.svgs.size() == 1 ? drawings.name
                                           : fmt::format("{}-{}", drawings.name, ++place),
-              svg, drawings.caption);
+              drawings.are_heat_maps ? on_paper(svg) : svg, drawings.caption);
   }
   void tell(const Choices& choices) {
     for (std::size_t i = 0; i < choices.all.size(); ++i)

@@ -490,12 +490,7 @@ std::string vehicle_csv(const VehicleAnswers& answers) {
 
 }  // namespace
 
-std::string svg_of(const GoMap& map) {
-  std::string svg = heat_map_svg(heat_map_of_go(map));
-  svg.insert(svg.find('>') + 1, R"(<rect width="100%" height="100%" fill="#ffffff"/><g font-family="sans-serif">)");
-  svg.insert(svg.rfind("</svg>"), "</g>");
-  return svg;
-}
+std::string svg_of(const GoMap& map) { return on_paper(heat_map_svg(heat_map_of_go(map))); }
 
 std::string csv_of(const GoMap& map) {
   std::string text = "slope_deg,heading_deg,chance,chance_se\n";

@@ -377,30 +377,45 @@ TEST(LimitsCommand, TheSlipOnASlopeIsTheSlipOfNoPullThere) {
 // One uncertain value, the friction angle: the standard error of a limit is half of what the limit changes by from one
 // standard deviation below to one above.
 TEST(LimitsCommand, AStandardErrorIsTheChangeByOneStandardDeviation) {
-  const auto limits = [](const std::string& friction) {
-    return soilbin(
-               "limits --tire rover-wheel --soil dry-sand --no-assumed-sd --shear-modulus 20+-0mm "
-               "--stress-angle-c1 0.18+-0 --stress-angle-c2 0.32+-0 --load 64.68N --json --friction-angle " +
-               friction)
-        .json()["rows"]
-        .at(0);
+  nlohmann::json low, high, row;
+  const auto ask_with = [&](const std::string& load) {
+    const auto limits = [&](const std::string& friction) {
+      return soilbin(
+                 "limits --tire rover-wheel --soil dry-sand --no-assumed-sd --shear-modulus 20+-0mm "
+                 "--stress-angle-c1 0.18+-0 --stress-angle-c2 0.32+-0 --json --load " +
+                 load + " --friction-angle " + friction)
+          .json()["rows"]
+          .at(0);
+    };
+    low = limits("27.9+-0deg"), high = limits("28.1+-0deg"), row = limits("28+-0.1deg");
   };
-  const nlohmann::json low = limits("27.9+-0deg"), high = limits("28.1+-0deg"), row = limits("28+-0.1deg");
   const auto half_change = [&](const auto& value) {
     return std::abs(value(high).template get<double>() - value(low).template get<double>()) / 2;
   };
+  ask_with("64.68N");
   const auto second = [](const char* key) { return [key](const auto& of) { return of["slopes"][1][key]; }; };
   const nlohmann::json& errors = row["slopes"][1]["std_error"];
   EXPECT_NEAR(errors["largest_pull"].get<double>() / half_change(second("largest_pull")), 1.0, 0.01);
   EXPECT_NEAR(errors["slip"].get<double>() / half_change(second("slip")), 1.0, 0.01);
-  EXPECT_NEAR(row["std_error"]["steepest_slope"].get<double>() /
-                  half_change([](const auto& of) { return of["steepest_slope"]; }),
-              1.0, 0.01);
+  const auto expect_steepest = [&] {
+    EXPECT_NEAR(row["std_error"]["steepest_slope"].get<double>() /
+                    half_change([](const auto& of) { return of["steepest_slope"]; }),
+                1.0, 0.01);
+  };
+  expect_steepest();
   for (const char* of_towed : {"slip", "resistance"})
     EXPECT_NEAR(row["towed"][of_towed]["std_error"].get<double>() /
                     half_change([&](const auto& of) { return of["towed"][of_towed]["value"]; }),
                 1.0, 0.01)
         << of_towed;
+  ask_with("300N");
+  ASSERT_LT(row["steepest_slope"].get<double>(), 0.0) << "it needs a descent";
+  expect_steepest();
+}
+
+TEST(LimitsCommand, AWheelThatNeedsADescentHasNoSlipOnLevelGround) {
+  EXPECT_THAT(soilbin("limits --tire rover-wheel --soil dry-sand --load 300N").out,
+              AllOf(HasSubstr("          0  none "), HasSubstr("it needs a downhill slope of 3.7 ± 4.5 deg or more.")));
 }
 
 // What it slips by and resists with is the answer at that slip; the angular speed is that of its travel.

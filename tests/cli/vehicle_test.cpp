@@ -100,7 +100,7 @@ drive:
     - {at: 4 m, longitudinal_incline: 35 deg}
 )";
 
-TEST(VehicleCommand, DrivesItInTimeUntilItIsStuck) {
+TEST(SlowVehicleCommand, DrivesItInTimeUntilItIsStuck) {
   const Scratch scratch;
   const std::string file = "'" + scratch.write("climber.yaml", climbing_rover).string() + "'";
   const Outcome run = soilbin("vehicle " + file + " --drive");
@@ -123,7 +123,7 @@ TEST(VehicleCommand, SaysInTimeThatTheSoilDoesNotHoldIt) {
   EXPECT_TRUE(run.json().at("end").is_null());
 }
 
-TEST(VehicleCommand, SaysThatThePowerDoesNotHoldTheSpeed) {
+TEST(SlowVehicleCommand, SaysThatThePowerDoesNotHoldTheSpeed) {
   const Outcome fast = soilbin("vehicle truck --speed 100km/h --json");
   EXPECT_EQ(fast.status, 1);
   EXPECT_THAT(fast.err, HasSubstr("it does not hold 27.8 m/s: too little power"));
@@ -146,7 +146,7 @@ soil: grc-1
 condition: {speed: 0.1 m/s}
 )";
 
-TEST(VehicleCommand, SaysHowFastAndHowSteepItsMotorLetsItGo) {
+TEST(SlowVehicleCommand, SaysHowFastAndHowSteepItsMotorLetsItGo) {
   const Scratch scratch;
   const std::string file = "'" + scratch.write("cart.yaml", cart_with_motor).string() + "'";
   const Outcome run = soilbin("vehicle " + file);
@@ -164,7 +164,7 @@ TEST(VehicleCommand, SaysHowFastAndHowSteepItsMotorLetsItGo) {
   EXPECT_THAT(fast.err, HasSubstr("it does not hold 0.470 m/s: the motors give no more torque"));
 }
 
-TEST(VehicleCommand, TellsTheTightestTurnAndWhatEndsIt) {
+TEST(SlowVehicleCommand, TellsTheTightestTurnAndWhatEndsIt) {
   const Outcome run = soilbin("vehicle truck --turn");
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out,
@@ -180,7 +180,7 @@ TEST(VehicleCommand, TellsTheTightestTurnAndWhatEndsIt) {
   EXPECT_THAT(tight.err, HasSubstr("does not turn so: "));
 }
 
-TEST(VehicleCommand, TurnsOnTheSpotByItsSides) {
+TEST(SlowVehicleCommand, TurnsOnTheSpotByItsSides) {
   const Scratch scratch;
   const std::string file = "'" + scratch.write("skid.yaml", "drive_line: sides\n" + climbing_rover).string() + "'";
   const Outcome run = soilbin("vehicle " + file + " --turn --radius 0m");
@@ -241,7 +241,7 @@ TEST(VehicleCommand, RefusesAMotorThatItCannotRead) {
   EXPECT_THAT(told("motor:", "drive_line: motors\nmotor:"), HasSubstr("give 'motor' to the axles"));
 }
 
-TEST(VehicleCommand, FlagsOfTheMachineAreAFileThatSaysTheSame) {
+TEST(SlowVehicleCommand, FlagsOfTheMachineAreAFileThatSaysTheSame) {
   const Scratch scratch;
   const std::string file = scratch
                                .write("heavy.yaml", R"(format: soilbin-vehicle-case/1

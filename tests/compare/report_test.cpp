@@ -144,12 +144,26 @@ TEST(Page, ACardsLineEndsAtAWord) {
   EXPECT_EQ(line_of(sentence + " " + words), sentence);
 }
 
-TEST(Page, ACardOfAHeatMapShowsIt) {
-  const test::Folder folder;
+Report report_with_a_heat_map() {
   Report report{"title", "below"};
   HeatMap map;
   map.title = "where", map.x = {"1"}, map.y = {"2"}, map.cells = {{{3.0, "+3", "three", true}}};
-  report.add(Drawings{{heat_map_svg(map)}, "caption", "", true});
+  report.add(Drawings{{heat_map_svg(map)}, "caption", "map", true});
+  return report;
+}
+
+// A viewer of pictures may be dark; a page is the map's own ground.
+TEST(Markdown, AHeatMapLiesOnWhitePaper) {
+  const test::Folder folder;
+  write_markdown(folder.path(), report_with_a_heat_map(), {}, false);
+  const std::string picture = read_bytes(folder / "map.svg", 1U << 20U);
+  EXPECT_THAT(picture, HasSubstr("<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>"));
+  EXPECT_EQ(picture.find("<rect"), picture.find("<rect width=\"100%\"")) << "below all else";
+}
+
+TEST(Page, ACardOfAHeatMapShowsIt) {
+  const test::Folder folder;
+  const Report report = report_with_a_heat_map();
   write_file_atomically(folder / "page.html", page_of(report, {}));
   EXPECT_THAT(page_card(folder / "page.html", folder / "index.html").drawing, HasSubstr("where"));
 }

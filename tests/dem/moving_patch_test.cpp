@@ -72,8 +72,10 @@ class Patch : public ::testing::TestWithParam<GrainShape> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Grains, Patch, ::testing::Values(GrainShape::sphere, GrainShape::four_spheres),
-                         [](const auto& info) { return std::string(word_of(info.param)); });
+std::string name_of(const ::testing::TestParamInfo<GrainShape>& info) { return std::string(word_of(info.param)); }
+
+INSTANTIATE_TEST_SUITE_P(Spheres, Patch, ::testing::Values(GrainShape::sphere), name_of);
+INSTANTIATE_TEST_SUITE_P(SlowClumps, Patch, ::testing::Values(GrainShape::four_spheres), name_of);
 
 TEST_P(Patch, IsMadeOfATileThatHoldsAsManyContactsThroughItsSeamAsThroughAnyOtherCut) {
   const Tile tile = tile_of(bed().setup, bed().state);
@@ -163,13 +165,13 @@ TEST_P(Patch, EndsInWhatIsHeldAndNothingElseIs) {
 
 // A clump that went through a patch is the rigid body that it was: its spheres lie as in its tile, and weigh it.
 TEST(MovingPatch, LeavesClumpsWhole) {
-  const SettledBed& bed = tile_bed(GrainShape::four_spheres);
+  const SettledBed& bed = tile_bed(GrainShape::two_spheres);
   MovingPatch patch(tile_of(bed.setup, bed.state), small_patch());
   Simulation simulation = patch.open(patch_setup(bed), bed.state, 1);
   go_on(patch, simulation, 6, 40);
   const State& state = simulation.state();
   EXPECT_EQ(state.clumps.members.size(), state.grains.count());
-  EXPECT_EQ(state.clumps.all.size() * 4, state.grains.count());
+  EXPECT_EQ(state.clumps.all.size() * 2, state.grains.count());
   for (const Clump& clump : state.clumps.all)
     for (const ClumpMember& member : state.clumps.of(clump)) {
       const Motion& sphere = state.grains.motion[member.row];
@@ -341,24 +343,25 @@ SettledBed with_rough_floor(SettledBed bed) {
 }
 
 /// The same run on long beds with end walls and on moving patches, several packings of each.
-void expect_same_on_both(const OperatingCondition& at, GrainShape shape = GrainShape::sphere,
+void expect_same_on_both(const OperatingCondition& at, GrainShape shape = GrainShape::sphere, double travel = 0.8,
                          std::uint64_t packings = 4) {
   std::vector<WheelRun> fixed, moving;
   for (std::uint64_t packing = 1; packing <= packings; ++packing) {
-    BedRecipe recipe = test::small_recipe({1.18, 0.16, 0.06});
+    const double length = travel + 0.38;
+    BedRecipe recipe = test::small_recipe({length, 0.16, 0.06});
     recipe.packing = packing, recipe.soil.shape = shape;
     const SettledBed bed = with_rough_floor(settle_bed(recipe, with_threads(1)));
     Rig rig = patch_rig();
-    rig.patch = false, rig.travel = 0.8, rig.behind = 0.14, rig.ahead = 0.24;
+    rig.patch = false, rig.travel = travel, rig.behind = 0.14, rig.ahead = 0.24;
     const Tire tire = small_wheel();
     fixed.push_back(run_wheel({bed, tire, recipe.soil.grain_tire, rig}, at, with_threads(1)));
     recipe.size.length = 0.3, recipe.periodic = true;
     const SettledBed tile = settle_bed(recipe, with_threads(1));
     rig.patch = true;
     moving.push_back(run_wheel({tile, tire, recipe.soil.grain_tire, rig}, at, with_threads(1)));
-    EXPECT_LT(moving.back().patch.grains, 0.48 * static_cast<double>(bed.state.grains.count()));
+    EXPECT_LT(moving.back().patch.grains, 0.57 / length * static_cast<double>(bed.state.grains.count()));
     EXPECT_LT(moving.back().patch.disturbed, 0.1 * diameter());
-    EXPECT_NEAR(moving.back().samples.back().travel, 0.8, 0.01);
+    EXPECT_NEAR(moving.back().samples.back().travel, travel, 0.01);
     EXPECT_GT(moving.back().rut.across.size(), 5U);
   }
   const auto same = [&](const char* what, const auto& read) {
@@ -378,7 +381,7 @@ TEST(SlowMovingPatch, PullsTurnsAndSinksAsOnAFixedBed) {
 }
 
 TEST(SlowMovingPatch, OfClumpsIsAsAFixedBedOfThemOnASlope) {
-  expect_same_on_both(uphill(), GrainShape::two_spheres, 3);
+  expect_same_on_both(uphill(), GrainShape::two_spheres, 0.5, 3);
 }
 
 TEST(SlowMovingPatch, PullsTurnsSinksAndIsPushedAsideAsOnAFixedBedOnASlope) {
