@@ -135,6 +135,9 @@ ChannelErrors::ChannelErrors(const RolledWheel& balanced, const Scenario& scenar
     if (const auto place = find_effect_parameter(error.parameter, scenario.effects); place && error.std_error > 0.0)
       add(error.parameter, *error.std_error,
           derivatives.by(scenario.effects, place->effect, place->parameter, *error.std_error));
+  for (std::size_t a = 0; a < shifts_.size() && !scenario.errors.empty(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      correlations_.push_back(correlation(scenario.errors, shifts_[a].parameter, shifts_[b].parameter));
 }
 
 void ChannelErrors::add(const std::string& parameter, double sd, BalanceDerivatives::Channels slopes) {
@@ -151,9 +154,9 @@ double ChannelErrors::of(const BalanceDerivatives::Channels& factors) const {
     shifts.push_back(std::inner_product(factors.begin(), factors.end(), shift.channels.begin(), 0.0));
   double variance = 0.0;
   for (const double shift : shifts) variance += shift * shift;
-  for (std::size_t a = 0; a < shifts.size() && !scenario_.errors.empty(); ++a)
-    for (std::size_t b = 0; b < a; ++b)
-      variance += 2 * correlation(scenario_.errors, shifts_[a].parameter, shifts_[b].parameter) * shifts[a] * shifts[b];
+  auto r = correlations_.begin();
+  for (std::size_t a = 0; a < shifts.size() && r != correlations_.end(); ++a)
+    for (std::size_t b = 0; b < a; ++b) variance += 2 * *r++ * shifts[a] * shifts[b];
   double error = std::sqrt(std::max(0.0, variance));
   for (std::size_t i = 0; i < factors.size(); ++i)
     if (scenario_.misfit[i] > 0.0) error = std::hypot(error, factors[i] * scenario_.misfit[i]);

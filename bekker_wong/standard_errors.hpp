@@ -91,6 +91,7 @@ class ChannelErrors {
   void add(const std::string& parameter, double sd, BalanceDerivatives::Channels slopes);
 
   std::vector<Shift> shifts_;
+  std::vector<double> correlations_;  ///< of each shift with those before it, pair by pair; empty: there are none
   std::vector<std::string> without_;
   const Scenario& scenario_;
 };

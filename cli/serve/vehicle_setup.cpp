@@ -15,17 +15,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+template <class E>
+Json choice_json(const char* key, const char* title, E value) {
+  return {{"key", key}, {"title", title}, {"value", word_of(value)}, {"words", all_words<E>()}};
+}
+
 /// Lists of words that the page offers.
 Json choices_json(const compare::VehicleCase& vehicle) {
-  Json choices = Json::array({{{"key", "drive-line"},
-                               {"title", "Drive line"},
-                               {"value", word_of(vehicle.drive_line)},
-                               {"words", all_words<compare::DriveLine>()}}});
+  Json choices = Json::array({choice_json("drive-line", "Drive line", vehicle.drive_line)});
   if (vehicle.axles.size() > 1)
-    choices.push_back({{"key", "centre-differential"},
-                       {"title", "Centre differential"},
-                       {"value", word_of(vehicle.centre_differential.value_or(compare::Differential::locked))},
-                       {"words", all_words<compare::Differential>()}});
+    choices.push_back(choice_json("centre-differential", "Centre differential",
+                                  vehicle.centre_differential.value_or(compare::Differential::locked)));
   return choices;
 }
 

@@ -426,22 +426,24 @@ void Simulation::exchange(const Exchange& what) {
     Grains& all = s.grains;
     RowsById rows(all);
     std::vector<std::uint8_t> gone(all.count());
+    const auto leaves = [&](std::size_t row, const Motion& at) { return what.leaves && what.leaves(all.id[row], at); };
+    const auto stays = [&](std::size_t row, const Motion& at) {
+      return !at.held() && what.stays && what.stays(all.id[row], at);
+    };
     for (std::size_t row = 0; row < all.count(); ++row) {
       if (all.clump[row] != lone) continue;
-      gone[row] = what.leaves && what.leaves(all.id[row], all.motion[row]);
-      if (!gone[row] && !all.motion[row].held() && what.stays && what.stays(all.id[row], all.motion[row]))
-        hold(all, row);
+      gone[row] = leaves(row, all.motion[row]);
+      if (!gone[row] && stays(row, all.motion[row])) hold(all, row);
     }
     for (Clump& clump : s.clumps.all) {
       const std::uint32_t row = s.clumps.row_of(clump);
       Motion centre = all.motion[row];
       centre.position = clump.motion.position, centre.velocity = clump.motion.velocity;
-      const bool leaves = what.leaves && what.leaves(all.id[row], centre);
-      const bool stays = !leaves && !centre.held() && what.stays && what.stays(all.id[row], centre);
-      if (stays) clump.motion.velocity = clump.motion.spin = {};
+      const bool goes = leaves(row, centre), held = !goes && stays(row, centre);
+      if (held) clump.motion.velocity = clump.motion.spin = {};
       for (const ClumpMember& member : s.clumps.of(clump)) {
-        gone[member.row] = leaves;
-        if (stays) hold(all, member.row);
+        gone[member.row] = goes;
+        if (held) hold(all, member.row);
       }
     }
     for (const LetGo& let_go : what.let_go) {

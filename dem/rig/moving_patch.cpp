@@ -91,16 +91,6 @@ MovingPatch::MovingPatch(Tile tile, const PatchSize& size, KeepsRut keeps)
                     size_.slab, 2 * largest, tile_.length));
 }
 
-Vec3 MovingPatch::place(std::int64_t image, std::uint32_t grain) const {
-  Vec3 at = tile_.grains[grain].position;
-  at.x += static_cast<double>(image) * tile_.length;
-  return at;
-}
-
-double MovingPatch::x_of(std::int64_t image, std::uint32_t grain) const {
-  return tile_.x_of(grain) + static_cast<double>(image) * tile_.length;
-}
-
 GrainId MovingPatch::id(std::int64_t image, std::uint32_t grain) const {
   const std::int64_t id = (image + tiles_before) * static_cast<std::int64_t>(tile_.grains.size()) + grain;
   if (id < 0 || id >= static_cast<std::int64_t>(~GrainId{0}))
@@ -110,7 +100,7 @@ GrainId MovingPatch::id(std::int64_t image, std::uint32_t grain) const {
 
 Vec3 MovingPatch::home(GrainId id) const {
   const std::size_t count = tile_.grains.size();
-  return place(static_cast<std::int64_t>(id / count) - tiles_before, static_cast<std::uint32_t>(id % count));
+  return tile_.place(static_cast<std::int64_t>(id / count) - tiles_before, static_cast<std::uint32_t>(id % count));
 }
 
 double MovingPatch::grains() const {
@@ -119,14 +109,14 @@ double MovingPatch::grains() const {
 
 namespace {
 
-/// Copies of the tile's grains with from <= x < to, sphere by sphere: visit(image, grain, x).
+/// Copies of the tile's grains with from <= x < to, sphere by sphere: visit(image, grain).
 template <class Visit>
 void visit_between(const Tile& tile, double from, double to, const Visit& visit) {
   const auto tile_at = [&](double x) { return static_cast<std::int64_t>(std::floor(x / tile.length)); };
   for (std::int64_t image = tile_at(from) - 1; image <= tile_at(to); ++image)
     for (std::uint32_t grain = 0; grain < tile.grains.size(); ++grain) {
-      const double x = tile.x_of(grain) + static_cast<double>(image) * tile.length;
-      if (x >= from && x < to) visit(image, grain, x);
+      const double x = tile.x_of(image, grain);
+      if (x >= from && x < to) visit(image, grain);
     }
 }
 
@@ -140,13 +130,13 @@ void MovingPatch::bring_contacts(double from, double to, Exchange& change,
   const auto tile_at = [&](double x) { return static_cast<std::int64_t>(std::floor(x / tile_.length)); };
   for (std::int64_t image = tile_at(from) - reach_in_tiles; image <= tile_at(to) + reach_in_tiles; ++image) {
     for (const TileContact& contact : tile_.contacts) {
-      const double first = x_of(image, contact.first), second = x_of(image + contact.image, contact.second);
+      const double first = tile_.x_of(image, contact.first), second = tile_.x_of(image + contact.image, contact.second);
       if (between(first) && between(second) && wanted(first, second))
         change.contacts.push_back(
             {id(image, contact.first), id(image + contact.image, contact.second), contact.memory});
     }
     for (const TileOnSurface& contact : tile_.on_surfaces) {
-      const double x = x_of(image, contact.grain);
+      const double x = tile_.x_of(image, contact.grain);
       if (!between(x) || !wanted(x, x)) continue;
       const auto& m = contact.memory;
       change.on_surfaces.push_back({id(image, contact.grain),
@@ -160,7 +150,8 @@ void MovingPatch::bring_contacts(double from, double to, Exchange& change,
 
 /// Copies with from <= x < to come in; those with free_from <= x < free_to are free, the others held.
 void MovingPatch::bring_grains(double from, double to, double free_from, double free_to, Exchange& change) const {
-  visit_between(tile_, from, to, [&](std::int64_t image, std::uint32_t k, double x) {
+  visit_between(tile_, from, to, [&](std::int64_t image, std::uint32_t k) {
+    const double x = tile_.x_of(image, k);
     const auto bring = [&](std::uint32_t number, std::uint32_t clump) {
       const TileGrain& grain = tile_.grains[number];
       const double mass = x >= free_from && x < free_to ? grain.mass : held_mass;
@@ -169,7 +160,7 @@ void MovingPatch::bring_grains(double from, double to, double free_from, double 
            .radius = grain.radius,
            .mass = mass,
            .material = static_cast<std::uint8_t>(grain.material),
-           .position = place(image, number),
+           .position = tile_.place(image, number),
            .clump = clump,
            .inertia = clump == lone || mass == held_mass ? 0 : mean_inertia(change.clumps.all[clump])});
     };
@@ -238,7 +229,7 @@ void MovingPatch::advance(Simulation& simulation) {
     return true;
   };
   change.stays = [&](GrainId, const Motion& grain) { return grain.position.x < new_rear; };
-  visit_between(tile_, held_from, enters_from, [&](std::int64_t image, std::uint32_t grain, double) {
+  visit_between(tile_, held_from, enters_from, [&](std::int64_t image, std::uint32_t grain) {
     change.let_go.push_back({id(image, grain), tile_.grains[grain].mass});
   });
   bring_grains(enters_from, enters_to, enters_to, enters_to, change);
@@ -320,11 +311,8 @@ SurfaceHeight MovingPatch::undisturbed(const Footprint& over, double spacing) co
   SurfaceHeight out = bare_floor(over, spacing);
   const Tile& tile = undisturbed_.grains.empty() ? tile_ : undisturbed_;
   const double largest = tile.largest();
-  visit_between(tile, over.x_lower - largest, over.x_upper + largest, [&](std::int64_t image, std::uint32_t k, double) {
-    Vec3 at = tile.grains[k].position;
-    at.x += static_cast<double>(image) * tile.length;
-    raise(out, at, tile.grains[k].radius);
-  });
+  visit_between(tile, over.x_lower - largest, over.x_upper + largest,
+                [&](std::int64_t image, std::uint32_t k) { raise(out, tile.place(image, k), tile.grains[k].radius); });
   return out;
 }
 

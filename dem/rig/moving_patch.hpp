@@ -36,8 +36,8 @@ namespace soilbin::dem {
 /// A grain of a tile, 0 <= x < length, or a sphere of a clump whose centre of mass lies there.
 struct TileGrain {
   Vec3 position;
-  double radius = 0,
-         mass = 0;  ///< [m], [kg]; of a clump's sphere the clump's; held_mass where it is held in the tile too
+  double radius = 0;  ///< [m]
+  double mass = 0;    ///< [kg]; of a clump's sphere the clump's; held_mass where it is held in the tile too
   std::int32_t material = 0;
   std::uint32_t clump = lone;
 };
@@ -65,10 +65,17 @@ struct Tile {
   std::vector<TileOnSurface> on_surfaces;
   Clumps clumps;  ///< at rest; the row of a member is its number among the grains
 
-  /// The x by which a grain enters and leaves: a clump goes as a whole [m].
-  double x_of(std::uint32_t grain) const {
+  /// Where a grain is in the copy that lies `image` lengths on [m].
+  Vec3 place(std::int64_t image, std::uint32_t grain) const {
+    Vec3 at = grains[grain].position;
+    at.x += static_cast<double>(image) * length;
+    return at;
+  }
+  /// The x by which it enters and leaves: a clump goes as a whole [m].
+  double x_of(std::int64_t image, std::uint32_t grain) const {
     const TileGrain& it = grains[grain];
-    return it.clump == lone ? it.position.x : clumps.all[it.clump].motion.position.x;
+    const double x = it.clump == lone ? it.position.x : clumps.all[it.clump].motion.position.x;
+    return x + static_cast<double>(image) * length;
   }
   /// Radius of the largest grain, of a clump of the ball about its centre of mass that holds it [m].
   double largest() const;
@@ -121,8 +128,6 @@ class MovingPatch {
   double front(std::int64_t advances) const {
     return size_.behind + size_.ahead + static_cast<double>(advances) * size_.slab;
   }
-  Vec3 place(std::int64_t image, std::uint32_t grain) const;
-  double x_of(std::int64_t image, std::uint32_t grain) const;
   GrainId id(std::int64_t image, std::uint32_t grain) const;
   Vec3 home(GrainId id) const;
   void bring_contacts(double from, double to, Exchange& change,

@@ -201,24 +201,35 @@ TEST(Vehicle, OfFourWheelsAlikeIsFourTimesOne) {
   for (const SteadyWheel& wheel : alike.wheels) EXPECT_NEAR(wheel.result.at.load, one.at.load, 1e-9 * one.at.load);
 }
 
+/// Gives the vehicle on one of two slopes, steered in front; on the other it is its mirror image.
+SteadyVehicle expect_mirrored(VehicleCase question) {
+  question.axles[0].steered = YesNo::yes;
+  const auto wheels = wheels_of(question);
+  const SteadyVehicles vehicles(question, wheels, soft);
+  const SteadyVehicle left = vehicles.at_slip({.slope = 0.05, .cross_slope = 0.12}, 0.25);
+  const SteadyVehicle right = vehicles.at_slip({.slope = 0.05, .cross_slope = -0.12}, 0.25);
+  EXPECT_NEAR(left.pull, right.pull, 1e-7 * vehicles.weight());
+  EXPECT_NEAR(left.crab, -right.crab, 1e-8);
+  EXPECT_NEAR(left.steering, -right.steering, 1e-8);
+  for (const auto& [one, other] : {std::pair{0, 1}, {1, 0}, {2, 3}, {3, 2}}) {
+    const SteadyWheel &a = left.wheels[static_cast<std::size_t>(one)],
+                      &b = right.wheels[static_cast<std::size_t>(other)];
+    EXPECT_NEAR(a.normal_load, b.normal_load, 1e-7 * vehicles.weight());
+    EXPECT_NEAR(a.result.torque.value, b.result.torque.value, 1e-7 * vehicles.weight());
+    EXPECT_NEAR(a.result.at.slip, b.result.at.slip, 1e-7);
+  }
+  return left;
+}
+
+void expect_sum(const VehiclePower& p) {
+  EXPECT_NEAR(p.into_wheels, p.drawbar + p.climbing + p.slip_loss + p.soil_loss, 1e-9 * p.into_wheels);
+}
+
 TEST(Vehicle, OnTheOtherSlopeIsItsMirrorImage) {
   for (const DriveLine line : {DriveLine::locked, DriveLine::open_axles}) {
     VehicleCase question = rover();
-    question.drive_line = line, question.axles[0].steered = YesNo::yes;
-    const auto wheels = wheels_of(question);
-    const SteadyVehicles vehicles(question, wheels, soft);
-    const SteadyVehicle left = vehicles.at_slip({.slope = 0.05, .cross_slope = 0.12}, 0.25);
-    const SteadyVehicle right = vehicles.at_slip({.slope = 0.05, .cross_slope = -0.12}, 0.25);
-    EXPECT_NEAR(left.pull, right.pull, 1e-7 * vehicles.weight());
-    EXPECT_NEAR(left.crab, -right.crab, 1e-8);
-    EXPECT_NEAR(left.steering, -right.steering, 1e-8);
-    for (const auto& [one, other] : {std::pair{0, 1}, {1, 0}, {2, 3}, {3, 2}}) {
-      const SteadyWheel &a = left.wheels[static_cast<std::size_t>(one)],
-                        &b = right.wheels[static_cast<std::size_t>(other)];
-      EXPECT_NEAR(a.normal_load, b.normal_load, 1e-7 * vehicles.weight());
-      EXPECT_NEAR(a.result.torque.value, b.result.torque.value, 1e-7 * vehicles.weight());
-      EXPECT_NEAR(a.result.at.slip, b.result.at.slip, 1e-7);
-    }
+    question.drive_line = line;
+    expect_mirrored(question);
   }
 }
 
@@ -229,7 +240,7 @@ TEST(Vehicle, PowersAddUp) {
   const SteadyVehicles vehicles(question, wheels, soft);
   const SteadyVehicle v = vehicles.at_slip({.slope = 0.05, .speed = 0.4}, 0.35);
   const VehiclePower& p = v.power;
-  EXPECT_NEAR(p.into_wheels, p.drawbar + p.climbing + p.slip_loss + p.soil_loss, 1e-9 * p.into_wheels);
+  expect_sum(p);
   double into_wheels = 0.0;  // by torque and rotation, wheel by wheel
   for (std::size_t i = 0; i < wheels.size(); ++i)
     into_wheels += v.wheels[i].result.torque.value * v.wheels[i].rim_speed / wheels[i].scenario.tire.radius;
@@ -369,18 +380,7 @@ TEST(VehicleDifferential, OnTheOtherSlopeIsItsMirrorImageAndPowersAddUp) {
   for (const bool open_centre : {false, true}) {
     VehicleCase question = open_in_front();
     if (open_centre) question.centre_differential = Differential::open;
-    question.axles[0].steered = YesNo::yes;
-    const auto wheels = wheels_of(question);
-    const SteadyVehicles vehicles(question, wheels, soft);
-    const SteadyVehicle left = vehicles.at_slip({.slope = 0.05, .cross_slope = 0.12}, 0.25);
-    const SteadyVehicle right = vehicles.at_slip({.slope = 0.05, .cross_slope = -0.12}, 0.25);
-    EXPECT_NEAR(left.pull, right.pull, 1e-7 * vehicles.weight());
-    EXPECT_NEAR(left.crab, -right.crab, 1e-8);
-    for (const auto& [one, other] : {std::pair{0, 1}, {1, 0}, {2, 3}, {3, 2}})
-      EXPECT_NEAR(left.wheels[static_cast<std::size_t>(one)].result.torque.value,
-                  right.wheels[static_cast<std::size_t>(other)].result.torque.value, 1e-7 * vehicles.weight());
-    const VehiclePower& p = left.power;
-    EXPECT_NEAR(p.into_wheels, p.drawbar + p.climbing + p.slip_loss + p.soil_loss, 1e-9 * p.into_wheels);
+    expect_sum(expect_mirrored(question).power);
   }
 }
 

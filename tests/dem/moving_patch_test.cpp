@@ -81,8 +81,8 @@ TEST_P(Patch, IsMadeOfATileThatHoldsAsManyContactsThroughItsSeamAsThroughAnyOthe
   const Tile tile = tile_of(bed().setup, bed().state);
   EXPECT_EQ(tile.grains.size() - tile.clumps.members.size() + tile.clumps.all.size(), bed().report.grains);
   for (std::uint32_t grain = 0; grain < tile.grains.size(); ++grain) {
-    EXPECT_GE(tile.x_of(grain), 0);
-    EXPECT_LE(tile.x_of(grain), tile.length);
+    EXPECT_GE(tile.x_of(0, grain), 0);
+    EXPECT_LE(tile.x_of(0, grain), tile.length);
   }
   // Contacts that go through the cut x, the seam being x = 0.
   const auto through = [&](double x) {
