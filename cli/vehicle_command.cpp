@@ -29,6 +29,19 @@ struct VehicleOptions {
   OutputFlags outputs;
 };
 
+/// The wheel until somebody presses Ctrl-C: a vehicle asks it many thousand times.
+class StoppableWheel : public Model {
+ public:
+  std::string name() const override { return wheel_.name(); }
+  TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override {
+    if (interrupt_asked()) throw Interrupted();
+    return wheel_.evaluate(scenario, at);
+  }
+
+ private:
+  bekker_wong::BekkerWong wheel_{{.errors = false, .patch = false}};
+};
+
 int drive_in_time(const VehicleOptions& options, const compare::VehicleCase& question,
                   const std::vector<compare::VehicleWheel>& wheels, const Model& model, compare::Doubts notes,
                   const Session& session) {
@@ -65,7 +78,7 @@ int vehicle(const VehicleOptions& options, const Session& session) {
   const compare::VehicleCase question = options.asked.ask(session.place);
   std::vector<compare::VehicleWheel> wheels = wheels_of(question);
   compare::Doubts notes = declare_tires(wheels, options.asked.left_out());
-  const bekker_wong::BekkerWong model({.errors = false, .patch = false});
+  const StoppableWheel model;
   if (options.drive) return drive_in_time(options, question, wheels, model, std::move(notes), session);
   if (!options.measured.empty()) return beside_measured(options, question, wheels, model, std::move(notes), session);
   if (options.turn) return turn_steadily(options, question, wheels, model, std::move(notes), session);

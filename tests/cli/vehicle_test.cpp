@@ -100,6 +100,13 @@ drive:
     - {at: 4 m, longitudinal_incline: 35 deg}
 )";
 
+TEST(VehicleCommand, StopsAtCtrlC) {
+  const Outcome r = soilbin("vehicle tractor --slope 5deg", "timeout --preserve-status -s INT 0.3 ");
+  EXPECT_EQ(r.status, 130);
+  EXPECT_EQ(r.out, "");
+  EXPECT_THAT(r.err, HasSubstr("soilbin: stopped"));
+}
+
 TEST(SlowVehicleCommand, DrivesItInTimeUntilItIsStuck) {
   const Scratch scratch;
   const std::string file = "'" + scratch.write("climber.yaml", climbing_rover).string() + "'";
