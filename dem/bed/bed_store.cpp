@@ -23,6 +23,7 @@ namespace {
 /// To be raised when the same recipe gives another bed than before.
 constexpr int version = 2;
 constexpr int graded_version = 2;  // 1: small grains were put in more often than large ones
+constexpr int clump_version = 2;   // 1: clumps turned by quaternions alone, with other rounding
 
 constexpr const char* recipe_note = "bed_recipe";
 constexpr const char* time_note = "settling_time";
@@ -115,7 +116,8 @@ std::string recipe_text(const BedRecipe& recipe) {
   add("restitution", soil.grain_grain.restitution);
   add("sliding", soil.grain_grain.sliding_friction), add("rolling", soil.grain_grain.rolling_friction);
   if (soil.shape != GrainShape::sphere)
-    add("shape", static_cast<int>(soil.shape)), add("sphere_spacing", soil.sphere_spacing);
+    add("shape", static_cast<int>(soil.shape)), add("sphere_spacing", soil.sphere_spacing),
+        add("clump_version", clump_version);
   if (soil.grain_grain.cohesion > 0) add("cohesion", soil.grain_grain.cohesion);  // keys of beds without it stay
   if (soil.grain_grain.work_of_adhesion > 0) add("work_of_adhesion", soil.grain_grain.work_of_adhesion);
   add("length", recipe.size.length), add("width", recipe.size.width), add("depth", recipe.size.depth);

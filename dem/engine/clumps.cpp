@@ -26,9 +26,21 @@ void stand_still(State& s, Clump& clump) {
   carry_velocity(s.clumps, clump, clump.motion.rotation, s.grains);
 }
 
+/// What its spheres feel, about its centre of mass.
+Load load_of(std::span<const ClumpMember> spheres, const RotationMatrix& turn, std::span<const Load> loads) {
+  Load sum;
+  for (const ClumpMember& member : spheres) {
+    const Load& load = loads[member.row];
+    sum.force += load.force;
+    sum.torque += load.torque + cross(turn(member.arm), load.force);
+  }
+  return sum;
+}
+
 /// Where the ledger is kept: what the contacts of its spheres take from the motion (EnergyLedger).
-void count_kicks(World& world, const Clump& clump, const Acceleration& change) {
+void count_kicks(World& world, const Clump& clump, const Load& load) {
   State& s = world.state;
+  const Acceleration change = acceleration(clump, load, s.gravity);
   const double half = world.setup.numerics.dt / 2;
   for (const ClumpMember& member : s.clumps.of(clump)) {
     const Vec3 arm = clump.motion.rotation(member.arm);
@@ -43,19 +55,20 @@ double move(World& world, Clump& clump) {
   State& s = world.state;
   ClumpMotion& motion = clump.motion;
   const double dt = world.setup.numerics.dt;
-  const Load load = load_of(s.clumps, clump, s.grains.load);
-  const Acceleration change = acceleration(clump, load, s.gravity);
-  if (world.setup.numerics.ledger) count_kicks(world, clump, change);
-  const Rotation before = motion.rotation;
-  motion.velocity += dt * change.velocity;
-  motion.spin = spin_after(before, clump.inertia, motion.spin, load.torque, dt);
+  const std::span<const ClumpMember> spheres = s.clumps.of(clump);
+  const RotationMatrix before = matrix_of(motion.rotation);
+  const Load load = load_of(spheres, before, s.grains.load);
+  if (world.setup.numerics.ledger) count_kicks(world, clump, load);
+  motion.velocity += dt * (load.force / clump.mass + s.gravity);
+  motion.spin = spin_after(motion.rotation, clump.inertia, motion.spin, load.torque, dt);
   motion.position += dt * motion.velocity;
-  motion.rotation = turned(before, dt * motion.spin);
+  motion.rotation = turned(motion.rotation, dt * motion.spin);
+  const RotationMatrix after = matrix_of(motion.rotation);
   const Periods periods(world.setup.domain);
   double farthest = 0;
-  for (const ClumpMember& member : s.clumps.of(clump)) {
+  for (const ClumpMember& member : spheres) {
     Motion& sphere = s.grains.motion[member.row];
-    const Vec3 arm = motion.rotation(member.arm);
+    const Vec3 arm = after(member.arm);
     // Spheres live at half steps as all grains: there its arm lies halfway.
     sphere.velocity = motion.velocity + cross(motion.spin, 0.5 * (before(member.arm) + arm));
     sphere.position += periods.shortest(motion.position + arm - sphere.position);
@@ -140,13 +153,7 @@ double mass_share(const Grains& grains, const Clumps& clumps, std::size_t row) {
 }
 
 Load load_of(const Clumps& clumps, const Clump& clump, std::span<const Load> loads) {
-  Load sum;
-  for (const ClumpMember& member : clumps.of(clump)) {
-    const Load& load = loads[member.row];
-    sum.force += load.force;
-    sum.torque += load.torque + cross(clump.motion.rotation(member.arm), load.force);
-  }
-  return sum;
+  return load_of(clumps.of(clump), matrix_of(clump.motion.rotation), loads);
 }
 
 Acceleration acceleration(const Clump& clump, const Load& load, const Vec3& gravity) {

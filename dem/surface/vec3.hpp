@@ -41,6 +41,19 @@ struct Rotation {
   constexpr Rotation inverse() const { return {w, -x, -y, -z}; }
 };
 
+/// A rotation as a matrix, by its columns: for turning many vectors alike.
+struct RotationMatrix {
+  Vec3 x, y, z;  ///< where the axes are turned to
+  constexpr Vec3 operator()(const Vec3& a) const { return a.x * x + a.y * y + a.z * z; }
+};
+
+constexpr RotationMatrix matrix_of(const Rotation& q) {
+  const double x = 2 * q.x, y = 2 * q.y, z = 2 * q.z;
+  return {{1 - y * q.y - z * q.z, x * q.y + z * q.w, x * q.z - y * q.w},
+          {x * q.y - z * q.w, 1 - x * q.x - z * q.z, y * q.z + x * q.w},
+          {x * q.z + y * q.w, y * q.z - x * q.w, 1 - x * q.x - y * q.y}};
+}
+
 constexpr Rotation operator*(const Rotation& a, const Rotation& b) {
   return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
           a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};

@@ -83,7 +83,7 @@ TEST(Limits, ASteepDescentIsBrakedFurtherOrNotHeld) {
 
 // Soft and steep: braked hard the wheel is buried. Where the least braked slip that the soil carries pulls more than is
 // asked, no slip pulls that; else the one found does.
-TEST(Limits, ASlipBesideABurialPullsWhatIsAskedOrThereIsNone) {
+TEST(SlowLimits, ASlipBesideABurialPullsWhatIsAskedOrThereIsNone) {
   SoilValues soft = bed::sand();
   soft.k_phi *= 0.1;
   const RollingWheel wheel = wheel_on(soft);

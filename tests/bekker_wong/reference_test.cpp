@@ -138,7 +138,7 @@ void expect_agreement_at(int points, unsigned seed, bool at_corners, double leas
   }
 }
 
-TEST(Reference, AgreesAtRandomPoints) { expect_agreement_at(250, 20260101, false); }
+TEST(SlowReference, AgreesAtRandomPoints) { expect_agreement_at(250, 20260101, false); }
 
 TEST(Reference, AgreesAtCornerPoints) { expect_agreement_at(150, 20260102, true); }
 

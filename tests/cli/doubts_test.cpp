@@ -59,7 +59,7 @@ TEST(DoubtsOfCommands, AreTheSameInAllOfThem) {
   EXPECT_THAT(checked.out, HasSubstr("1 model at 1 condition"));
 }
 
-TEST(DoubtsOfCommands, KnowWhatAnAnswerDoesNotTell) {
+TEST(SlowDoubtsOfCommands, KnowWhatAnAnswerDoesNotTell) {
   const struct {
     const char* command;
     const char* kind;

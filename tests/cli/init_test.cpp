@@ -10,7 +10,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-TEST(Init, ACampaignIsTakenAsItStands) {
+TEST(SlowInit, ACampaignIsTakenAsItStands) {
   const Scratch scratch;
   const std::string folder = (scratch / "mine").string();
   const Outcome made = soilbin("init --campaign '" + folder + "'");

@@ -64,7 +64,7 @@ study:
   EXPECT_THAT(twice.err, HasSubstr("effect 'learned' is listed twice"));
 }
 
-TEST(LoopCommand, AnswersInTheContractsForm) {
+TEST(SlowLoopCommand, AnswersInTheContractsForm) {
   const Outcome outcome = soilbin("loop made-lesson --json");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const nlohmann::json answer = outcome.json();

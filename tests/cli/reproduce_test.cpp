@@ -46,7 +46,7 @@ TEST(RecordedStudies, AStudyWithoutRunsSaysHowToMakeThem) {
       Refuses(AllOf(HasSubstr("there are no recorded runs of 'rover-slip'"), HasSubstr("--model dem --record"))));
 }
 
-TEST(ReproduceCommand, CallsFindingsOfThePaperByTheirNames) {
+TEST(SlowReproduceCommand, CallsFindingsOfThePaperByTheirNames) {
   const Outcome outcome = soilbin("reproduce --json");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const nlohmann::json told = outcome.json();

@@ -113,7 +113,7 @@ TEST(SlowCalibration, ChancesAreWhatTheySay) {
   EXPECT_LE(wrong, 0.1 * claimed + 2 * std::sqrt(0.09 * claimed));
 }
 
-TEST(Calibration, ATargetOutOfReachIsNotReached) {
+TEST(SlowCalibration, ATargetOutOfReachIsNotReached) {
   ExperimentStore store;
   VirtualTest test = board();
   test.targets[0].measured = {60 * degree, 0};
@@ -141,7 +141,7 @@ TEST(Calibration, ATargetWithAToleranceMayBeZero) {
 }
 
 // A sentence holds three targets; more stand in a table, and what each factor does to them on the page alone.
-TEST(Calibration, ManyTargetsAreToldInATable) {
+TEST(SlowCalibration, ManyTargetsAreToldInATable) {
   VirtualTest test;
   test.identity = "stand-in curves";
   test.factors = {{"sliding_friction", 0, 1, "-"}, {"youngs_modulus", 1e9, 2e9, "GPa"}};
@@ -221,7 +221,7 @@ TEST(Calibration, FailedExperimentsAreLeftOutAndKept) {
 
 // A board that falls over wherever it has the right angle by more than a little friction: no point is asked twice
 // without an answer.
-TEST(Calibration, APointThatFailsIsNotAskedAgain) {
+TEST(SlowCalibration, APointThatFailsIsNotAskedAgain) {
   VirtualTest test = board();
   const auto angle = test.run;
   test.run = [=](const VectorXd& v, std::uint64_t seed) {

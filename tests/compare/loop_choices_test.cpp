@@ -42,7 +42,7 @@ TEST(LoopChoices, AnEffectThatPredictsNothingIsNotNamed) {
 }
 
 // One candidate comes near the noise, so each is weighed against noise of a known size.
-TEST(LoopChoices, CandidatesAreWeighedByTheNoiseWhereOneComesNearIt) {
+TEST(SlowLoopChoices, CandidatesAreWeighedByTheNoiseWhereOneComesNearIt) {
   const LoopAnswer answer = answer_to(0.5, 22);
   const Candidates& candidates = answer.found().candidates;
   ASSERT_FALSE(candidates.none_near_noise);
@@ -54,7 +54,7 @@ TEST(LoopChoices, CandidatesAreWeighedByTheNoiseWhereOneComesNearIt) {
 }
 
 // Slip sinkage so strong that nothing else comes near: no run is proposed against what is excluded already.
-TEST(LoopChoices, NoRunIsProposedAgainstAnExcludedCandidate) {
+TEST(SlowLoopChoices, NoRunIsProposedAgainstAnExcludedCandidate) {
   const LoopAnswer answer = answer_to(0.5, 22);
   ASSERT_EQ(answer.verdict(), Verdict::effect_found);
   const Candidates& all = answer.found().candidates;

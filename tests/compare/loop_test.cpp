@@ -108,7 +108,7 @@ TEST(SlowLoop, SetsTheOneNameThatIsLeftAgainstTheNextOne) {
 }
 
 // Each setpoint's torque off by its own amount, the same in both of its runs: re-runs say that this is no noise.
-TEST(Loop, SaysUnknownWhereSetpointsAreOffByMoreThanTheirRerunsDiffer) {
+TEST(SlowLoop, SaysUnknownWhereSetpointsAreOffByMoreThanTheirRerunsDiffer) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {}, fine_noise, 8);
   for (compare::Run& run : campaign.runs) {
@@ -121,7 +121,7 @@ TEST(Loop, SaysUnknownWhereSetpointsAreOffByMoreThanTheirRerunsDiffer) {
 }
 
 // A constant torque of the bearings and a torque sensor's offset are one and the same in these data: both are named.
-TEST(Loop, SaysWhatCannotBeToldApart) {
+TEST(SlowLoop, SaysWhatCannotBeToldApart) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {{"rig_friction", "coulomb", {{"a", 12.0}}}}, fine_noise, 23);
   const LoopAnswer answer = run_loop(campaign, quick());
@@ -193,7 +193,7 @@ TEST(SlowLoop, CountsADriftFromWhicheverRun) {
 }
 
 // Each accepted effect has a p-value of its own beside the other, and the soil's bias is told for each free value.
-TEST(Loop, TellsWhatEachEffectRestsOn) {
+TEST(SlowLoop, TellsWhatEachEffectRestsOn) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {{"multipass", "stiffer", {{"a", 0.8}}}, {"sensor_offset", "drawbar_pull", {{"a", 40.0}}}},
           fine_noise, 24);
@@ -212,7 +212,7 @@ TEST(Loop, TellsWhatEachEffectRestsOn) {
 }
 
 // Progress runs from the start to the end, and what it throws stops the work.
-TEST(Loop, CanBeStopped) {
+TEST(SlowLoop, CanBeStopped) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {{"bulldozing", "", {}}}, fine_noise, 29);
   LoopOptions options = quick();
@@ -322,7 +322,7 @@ TEST(Loop, ListsWhatTheDataCannotShow) {
             answer.not_testable.end());
 }
 
-TEST(Loop, IsNotMovedByOneOutlier) {
+TEST(SlowLoop, IsNotMovedByOneOutlier) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {}, fine_noise, 27);
   *campaign.runs[5].drawbar_pull += 200.0;

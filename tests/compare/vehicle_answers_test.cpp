@@ -176,7 +176,7 @@ TEST(VehicleAnswers, WithTooLittlePowerItDoesNotHoldItsSpeed) {
 }
 
 // Both sides of the rover roll alike: one curve an axle, of a colour that the pull has not.
-TEST(VehicleAnswers, WheelsThatSinkAlikeAreOneCurve) {
+TEST(SlowVehicleAnswers, WheelsThatSinkAlikeAreOneCurve) {
   VehicleCase vehicle = library_vehicle("rover");
   const auto labels = [&] {
     const VehicleAnswers answers = answers_of(vehicle, wheels_of(vehicle), wheel_model);

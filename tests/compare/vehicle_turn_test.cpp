@@ -248,7 +248,7 @@ TEST(VehicleTurn, OnTheSpotForcesAndMomentsCloseWithItsWeightBehindTheMiddle) {
   EXPECT_NEAR(moment, 0.0, 1e-3 * G) << "but for what the tilt by sinkage adds";
 }
 
-TEST(VehicleTurn, OnTheSpotItStaysWhereTheSoilHoldsItsWheelsAcrossMoreThanTheyDrive) {
+TEST(SlowVehicleTurn, OnTheSpotItStaysWhereTheSoilHoldsItsWheelsAcrossMoreThanTheyDrive) {
   VehicleCase vehicle = rover_in_balance();  // k at atan(0.6/0.4) and 0.6 m beats 2 at 0.4 m
   const TurnAnswers held = turn_of(vehicle, wheels_of(vehicle), GroundThatHolds(2.0), {.radius = 0.0, .steer = {}});
   ASSERT_FALSE(held.turn);
@@ -275,7 +275,7 @@ TEST(VehicleTurn, TheTightestEndsAtTheSteeringsStop) {
   EXPECT_EQ(beyond.why_not->limit, TurnLimit::steering);
 }
 
-TEST(VehicleTurn, OnSandSidesResistAndTheMotorMayGiveOutFirst) {
+TEST(SlowVehicleTurn, OnSandSidesResistAndTheMotorMayGiveOutFirst) {
   VehicleCase vehicle = rover_by_sides();
   const auto wheels = wheels_of(vehicle);
   const TurnAnswers strong = turn_of(vehicle, wheels, soft_soil);
