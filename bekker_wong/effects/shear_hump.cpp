@@ -1,8 +1,10 @@
 // shear_hump: shear stress peaks, then falls to a residual.
 //
 // Dense sand, bonded snow and turf break: beyond a displacement the strength falls. The part of the contact that has
-// slid far loses grip, so drawbar pull and torque bend down at high slip where the base model's level off. Every form
-// is Janosi's share 1 - exp(-x) times a factor that is 1 at amplitude 0; x = j/K.
+// slid far loses grip, so drawbar pull and torque bend down at high slip where the base model's level off. Under a
+// heavy wheel sand sticks to the tread behind the largest pressure and is carried along: the rear of the contact loses
+// grip at little slip. Every form is Janosi's share 1 - exp(-x) times a factor that is 1 at amplitude 0; x = j/K.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -67,6 +69,22 @@ class Decay final : public Effect {
   double share_, ratio_;
 };
 
+/// Soil that the tread carries along behind theta_m. A braked or locked wheel loses as much as one at no slip.
+class Carried final : public Effect {
+ public:
+  explicit Carried(const std::vector<double>& p) : amplitude_(p[0]) {}
+  void mobilise(ContactPatch& patch, std::span<const double> j, const SoilValues&,
+                const Surroundings& around) const override {
+    const double travel = around.motion.locked ? 1.0 : std::clamp(1 - around.motion.slip, 0.0, 1.0);
+    const double left = std::max(0.0, 1 - amplitude_ * travel * travel * std::sin(patch.angles.entry));
+    for (std::size_t i = 0; i < j.size(); ++i)
+      if (patch.theta[i] < patch.angles.max_stress) patch.mobilised[i] *= left;
+  }
+
+ private:
+  double amplitude_;
+};
+
 }  // namespace
 
 std::vector<EffectForm> shear_hump_forms() {
@@ -96,6 +114,12 @@ std::vector<EffectForm> shear_hump_forms() {
        .parameters = {{"a", "-", 0.5, 0.0, 1.0, "share of the curve without residual"},
                       {"kappa", "-", 3.0, 0.2, 10.0, "displacement at the peak over Janosi's K"}},
        .make = maker<Decay>()},
+      {.id = id,
+       .form = "carried",
+       .equation = "m = (1 - exp(-j/K)) max(0, 1 - a (1 - s)^2 sin(theta_1)) where theta < theta_m, s held above 0",
+       .source = "stated: from the stresses of grains under heavy tires (docs/lab/calibration.md)",
+       .parameters = {{"a", "-", 3.0, 0.0, 6.0, "share of the shear that soil carried along loses, over sin(theta_1)"}},
+       .make = maker<Carried>()},
   };
 }
 

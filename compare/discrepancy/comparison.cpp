@@ -282,6 +282,24 @@ std::optional<BudgetGap> widest_part(const Comparison& comparison, std::size_t s
   return widest;
 }
 
+std::optional<ShearRatios> shear_ratios(const Comparison& comparison, std::size_t side, std::size_t condition) {
+  const TractionResult* result = result_of(comparison, side, condition);
+  if (result == nullptr || result->patch.size() < 2) return std::nullopt;
+  const std::vector<StressSample>& patch = result->patch;
+  const double peak = std::ranges::max_element(patch, {}, &StressSample::normal)->theta;
+  struct Part {
+    double normal = 0.0, shear = 0.0;
+  } ahead, behind;
+  for (std::size_t k = 1; k < patch.size(); ++k) {
+    const StressSample &from = patch[k - 1], &to = patch[k];
+    Part& part = from.theta < peak ? behind : ahead;
+    part.normal += (to.theta - from.theta) * (from.normal + to.normal);
+    part.shear += (to.theta - from.theta) * (from.shear + to.shear);
+  }
+  if (!(ahead.normal > 0 && behind.normal > 0)) return std::nullopt;
+  return ShearRatios{ahead.shear / ahead.normal, behind.shear / behind.normal};
+}
+
 std::vector<SinkageSplit> sinkage_splits(const Comparison& comparison) {
   constexpr double no_slip = 1e-6;
   const std::vector<OperatingCondition>& conditions = comparison.question.study.conditions;

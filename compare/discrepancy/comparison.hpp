@@ -155,6 +155,14 @@ struct BudgetGap {
 std::optional<BudgetGap> widest_part(const Comparison& comparison, std::size_t side, std::size_t reference,
                                      std::size_t condition);
 
+/// Shear force over normal force on the parts of the contact ahead of the largest normal stress and behind it: how the
+/// shear stress builds up along the contact. By Janosi's curve it rises from the entry on.
+struct ShearRatios {
+  double ahead = 0.0, behind = 0.0;
+};
+/// Of one side at the condition. No value without a result, or without normal stress on both parts.
+std::optional<ShearRatios> shear_ratios(const Comparison& comparison, std::size_t side, std::size_t condition);
+
 /// Sinkage as what the load alone presses in, at slip 0 on the same curve, and what slip adds [m].
 struct SinkageSplit {
   std::size_t side = 0, condition = 0;

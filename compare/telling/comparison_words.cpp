@@ -214,6 +214,19 @@ std::string measure_of(const Tally& t) {
   return (channel.scale == ChannelScale::load_times_radius ? "" : "the ") + std::string(scale_in_words(channel));
 }
 
+/// Where along the contact two sides shear the soil otherwise; "" where one has no stresses there.
+static std::string told_shear(const Comparison& comparison, const Tally& t, std::size_t condition) {
+  const auto side = shear_ratios(comparison, t.side, condition);
+  const auto reference = shear_ratios(comparison, t.reference, condition);
+  if (!side || !reference) return "";
+  return fmt::format(
+      " Shear over normal stress ahead of the largest pressure and behind it: {:.2f} and {:.2f} by {}, {:.2f} and "
+      "{:.2f} "
+      "by {}.",
+      side->ahead, side->behind, name_of(comparison.sides[t.side]), reference->ahead, reference->behind,
+      name_of(comparison.sides[t.reference]));
+}
+
 /// Where the widest gap in pull comes from.
 std::vector<Clause> cause_clauses(const Comparison& comparison) {
   std::vector<Clause> clauses;
@@ -224,10 +237,11 @@ std::vector<Clause> cause_clauses(const Comparison& comparison) {
     if (!part) continue;
     clauses.push_back(
         {"Why",
-         fmt::format("At {} the pulls of {} and {} differ by {}. Largest part: {}, {} N against {} N.",
+         fmt::format("At {} the pulls of {} and {} differ by {}. Largest part: {}, {} N against {} N.{}",
                      in_words(comparison.question.study.conditions[worst.condition]), name_of(comparison.sides[t.side]),
                      name_of(comparison.sides[t.reference]), in_unit(t.channel, std::abs(worst.difference)),
-                     part_in_words(part->name), number(part->side), number(part->reference)),
+                     part_in_words(part->name), number(part->side), number(part->reference),
+                     part->name == "shear_thrust" ? told_shear(comparison, t, worst.condition) : ""),
          {ClauseEvidence::budget},
          {t.worst}});
   }

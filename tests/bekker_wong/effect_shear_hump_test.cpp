@@ -45,6 +45,43 @@ TEST(ShearHump, SofteningAndDecayCurves) {
   }
 }
 
+// Janosi's share ahead of theta_m, and behind it what 1 - a (1 - s)^2 sin(theta_1) leaves of it; nothing where that is
+// negative. A wheel that only spins carries no soil along.
+TEST(ShearHump, SoilCarriedAlongShearsLessBehindTheLargestPressure) {
+  const RollingWheel carried = wheel({"shear_hump", "carried", {{"a", 1.0}}});
+  for (const double slip : {0.0, 0.1, 0.4}) {
+    SCOPED_TRACE(slip);
+    const ContactPatch p = carried.roll(driven(1000, slip)).patch;
+    const double left = 1 - (1 - slip) * (1 - slip) * std::sin(p.angles.entry);
+    int behind = 0;
+    for (int i = 0; i < p.count; ++i) {
+      const double janosi = 1 - std::exp(-std::abs(p.j_x[i]) / 0.02);
+      const bool rear = p.theta[i] < p.angles.max_stress;
+      EXPECT_NEAR(p.mobilised[i], rear ? left * janosi : janosi, 1e-12);
+      behind += rear;
+    }
+    EXPECT_GT(behind, 0);
+    EXPECT_LT(behind, p.count);
+  }
+  const ContactPatch none = wheel({"shear_hump", "carried", {{"a", 6.0}}}).roll(driven(1000, 0.0)).patch;
+  for (int i = 0; i < none.count; ++i)
+    if (none.theta[i] < none.angles.max_stress) EXPECT_EQ(none.mobilised[i], 0.0);
+  const EffectList effects = make_effects({{"shear_hump", "carried", {}}});
+  EXPECT_EQ(roll(sand(), effects, driven(1000, 1.0)).drawbar_pull, base(driven(1000, 1.0)).drawbar_pull);
+}
+
+// The share of the pull that it takes grows with the load and falls with slip.
+TEST(ShearHump, SoilIsCarriedAlongByHeavyWheelsAtLittleSlip) {
+  const EffectList effects = make_effects({{"shear_hump", "carried", {}}});
+  const auto lost = [&](double load, double slip) {
+    const OperatingCondition at = driven(load, slip);
+    return (base(at).torque - roll(sand(), effects, at).torque) / base(at).torque;
+  };
+  EXPECT_GT(lost(200, 0.2), lost(20, 0.2));
+  EXPECT_GT(lost(1000, 0.2), lost(1000, 0.5));
+  EXPECT_GT(lost(1000, 0.5), 0);
+}
+
 // Torque rises to a peak and falls: at full slip it is below its best where the base model's is at its best. The longer
 // the contact (the heavier the wheel), the more of it has slid past the peak, so the peak comes at less slip.
 TEST(ShearHump, TorquePeaksAtAModerateSlip) {
@@ -74,6 +111,7 @@ TEST(ShearHump, LockedWheelKeepsTheResidual) {
   EXPECT_NEAR(left({"shear_hump", "wong", {{"a", 1.0}, {"K_r", 0.6}}}), 0.6, 1e-14);
   EXPECT_NEAR(left({"shear_hump", "softening", {{"a", 0.4}}}), 0.6, 1e-14);
   EXPECT_NEAR(left({"shear_hump", "decay", {{"a", 0.5}}}), 0.5, 1e-14);
+  EXPECT_LT(left({"shear_hump", "carried", {{"a", 1.0}}}), 1.0);
 }
 
 }  // namespace

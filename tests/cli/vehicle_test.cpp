@@ -101,7 +101,7 @@ drive:
 )";
 
 TEST(VehicleCommand, StopsAtCtrlC) {
-  const Outcome r = soilbin("vehicle tractor --slope 5deg", "timeout --preserve-status -s INT 0.3 ");
+  const Outcome r = soilbin("vehicle tractor --slope 5deg", "timeout --preserve-status -s INT 2 ");
   EXPECT_EQ(r.status, 130);
   EXPECT_EQ(r.out, "");
   EXPECT_THAT(r.err, HasSubstr("soilbin: stopped"));

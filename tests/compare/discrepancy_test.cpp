@@ -418,6 +418,26 @@ TEST_F(Pair, TheLoopDoesNotLookForWhatGrainsCannotHave) {
   EXPECT_TRUE(means_of(side_of(base), question, {}).impossible.empty());
 }
 
+// Trapezoids behind the largest normal stress: 10 and 3; ahead of it 20 and 8.
+TEST_F(Pair, ShearOverNormalStressIsToldAheadOfTheLargestPressureAndBehindIt) {
+  std::vector<RecordedRun> runs = grain_runs(base, {300}, 40.0);
+  runs[1].answer.result->patch = {{0, 0, 0}, {0.1, 100, 30}, {0.2, 50, 25}, {0.3, 0, 0}};
+  runs[2].answer.result->patch = {{0, 100, 30}, {0.1, 50, 20}};  // nothing behind
+  runs[3].answer.result->patch = {};
+  const Side side = side_of("dem", runs, question.study.conditions);
+  const Comparison comparison = compare_sides(question, {side_of(base), side});
+  const auto ratios = shear_ratios(comparison, 1, 1);
+  ASSERT_TRUE(ratios);
+  EXPECT_NEAR(ratios->ahead, 0.4, 1e-12);
+  EXPECT_NEAR(ratios->behind, 0.3, 1e-12);
+  EXPECT_FALSE(shear_ratios(comparison, 1, 2));
+  EXPECT_FALSE(shear_ratios(comparison, 1, 3));
+  // The analytic wheel slides the farther the nearer the exit: Janosi's curve rises.
+  const auto analytic = shear_ratios(comparison, 0, 2);
+  ASSERT_TRUE(analytic);
+  EXPECT_GT(analytic->behind, analytic->ahead);
+}
+
 TEST_F(Pair, SinkageIsWhatTheLoadPressesAndWhatSlipAdds) {
   const std::vector<SinkageSplit> splits = sinkage_splits(against({0}, 1.0));
   ASSERT_EQ(splits.size(), 8U);  // two sides, four slips
