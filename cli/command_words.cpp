@@ -97,6 +97,16 @@ std::string refusal_of(const CLI::ParseError& error, const std::string& command)
   return text;
 }
 
+void refuse_empty_texts(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    if (std::ranges::find(option->results(), "") != option->results().end())
+      throw CLI::ValidationError(
+          option->get_name(),
+          "the text is empty\n  hint: give a value, or leave it out; a variable of the shell may "
+          "not be set");
+  for (const CLI::App* called : command.get_subcommands()) refuse_empty_texts(*called);
+}
+
 std::string unknown_flag(const CLI::App& command, const std::vector<std::string>& words) {
   std::vector<std::string> flags;
   for (const CLI::Option* option : command.get_options())

@@ -144,6 +144,7 @@ int run(int argc, char** argv) {
   if (const std::string hint = misspelt(app, words); !hint.empty()) return refuse(hint);
   try {
     app.parse(argc, argv);
+    refuse_empty_texts(app);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
       std::ostringstream asked;  // help or version

@@ -47,6 +47,17 @@ TEST(CommandWords, AreRefusedInOurs) {
   }
 }
 
+TEST(CommandWords, AnEmptyTextIsNoValue) {
+  for (const std::string words :
+       {"estimate --soil", "estimate --tire", "estimate --load", "estimate --effect", "estimate --plot",
+        "estimate --model", "run paper-smooth --record", "run paper-smooth --recorded", "run paper-smooth --wheel-mesh",
+        "run paper-smooth --csv", "vehicle rover --soil", "vehicle rover --driven", "vehicle rover --mass",
+        "loop made-lesson --limit", "plates a.csv --only"})
+    EXPECT_THAT(soilbin(words + " ''"),
+                Refuses(HasSubstr(words.substr(words.rfind("--")) + ": the text is empty\n  hint: ")))
+        << words;
+}
+
 TEST(CommandWords, WordsOfTheFieldLeadToOurs) {
   const std::pair<const char*, const char*> led[] = {
       {"estimate --soil dry-sand --grouser-height 8mm",
