@@ -142,9 +142,9 @@ int run(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.empty()) return fmt::print("{}", app.help()), bad_input;
   if (const std::string hint = misspelt(app, words); !hint.empty()) return refuse(hint);
+  if (const std::string hint = empty_text(words); !hint.empty()) return refuse(hint);
   try {
     app.parse(argc, argv);
-    refuse_empty_texts(app);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
       std::ostringstream asked;  // help or version
