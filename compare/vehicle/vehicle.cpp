@@ -13,6 +13,13 @@
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
+
+std::string without_differentials(DriveLine line) {
+  if (line == DriveLine::motors) return "the drive_line 'motors' has a motor a wheel and no differentials";
+  if (line == DriveLine::sides) return "the drive_line 'sides' turns each side by itself and has no differentials";
+  return "";
+}
+
 namespace {
 
 /// Whether the wheels of a vehicle stand in more than one place along an axis.
@@ -33,13 +40,6 @@ bool in_a_slanting_line(const std::vector<VehicleWheel>& wheels) {
   });
 }
 
-/// Why a drive line has no differentials; empty where it has.
-std::string without_differentials(DriveLine line) {
-  if (line == DriveLine::motors) return "the drive_line 'motors' has a motor a wheel and no differentials";
-  if (line == DriveLine::sides) return "the drive_line 'sides' turns each side by itself and has no differentials";
-  return "";
-}
-
 std::string contradiction_in_centre(const VehicleCase& vehicle) {
   if (!vehicle.centre_differential) return "";
   if (const std::string none = without_differentials(vehicle.drive_line); !none.empty())
@@ -47,8 +47,7 @@ std::string contradiction_in_centre(const VehicleCase& vehicle) {
   const auto driven = std::ranges::count(vehicle.axles, YesNo::yes, &VehicleAxle::driven);
   if (vehicle.has_open_centre() && driven != 2)
     return fmt::format(
-        "an open centre_differential lies between two driven axles, and {} driven: drive two, or say "
-        "'locked'",
+        "an open centre_differential lies between two driven axles, and {} driven: drive two, or say 'locked'",
         driven == 1 ? "1 is" : fmt::format("{} are", driven));
   return "";
 }

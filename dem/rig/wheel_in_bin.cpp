@@ -11,7 +11,7 @@ namespace soilbin::dem {
 
 Setup run_setup(const WheelOnBed& on, int threads) {
   Setup setup = on.bed.setup;
-  const int tire = setup.materials.add({"tire", 1100, on.rig.young, on.rig.poisson});
+  const int tire = setup.materials.add({"tire", 1100, tire_young, tire_poisson});
   setup.materials.set(grain_material, tire, interaction_of(on.contact));
   setup.laws = with_cohesion_of(on.contact, setup.laws);
   if (on.rig.dt > 0) setup.numerics.dt = on.rig.dt;
@@ -20,7 +20,7 @@ Setup run_setup(const WheelOnBed& on, int threads) {
   setup.numerics.deepest_overlap = on.rig.deepest_overlap;
   setup.numerics.ledger = on.rig.ledger;
   const double g = on.bed.recipe.gravity, d = mean_diameter(on.bed.recipe.soil);
-  setup.numerics.sleep = {on.rig.sleep_speed * std::sqrt(g * d), on.rig.sleep_time * std::sqrt(d / g)};
+  setup.numerics.sleep = {on.rig.sleep_speed * std::sqrt(g * d), sleep_time * std::sqrt(d / g)};
   return setup;
 }
 
@@ -40,11 +40,10 @@ void check_width(const BedSize& size, const Tire& tire) {
 void check_end(const char* flag, double room, const Tire& tire) {
   const double outer = outer_radius(tire);
   if (room >= least_room * outer) return;
-  throw InputError(
-      fmt::format("{} {:.4g} m: that near to the end of the bin the wheel, of {:.4g} m outer radius, would hang over "
-                  "the end wall as "
-                  "soon as it has sunk by {:.2g} m\n  hint: {} {:.4g}m, the outer radius, or more; {:.4g}m at least",
-                  flag, room, outer, outer - std::sqrt(outer * outer - room * room), flag, outer, least_room * outer));
+  throw InputError(fmt::format(
+      "{} {:.4g} m: that near to the end of the bin the wheel, of {:.4g} m outer radius, would hang over the end wall "
+      "as soon as it has sunk by {:.2g} m\n  hint: {} {:.4g}m, the outer radius, or more; {:.4g}m at least",
+      flag, room, outer, outer - std::sqrt(outer * outer - room * room), flag, outer, least_room * outer));
 }
 
 }  // namespace
@@ -58,9 +57,8 @@ double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig) {
   const double room = size.length - rig.behind - rig.ahead;
   if (room <= 0)
     throw InputError(
-        fmt::format("a bed of {:.4g} m leaves the wheel no way: "
-                    "--behind keeps {:.4g} m and --ahead {:.4g} m"
-                    "\n  hint: --bed-length above {:.4g} m, or less --behind and --ahead",
+        fmt::format("a bed of {:.4g} m leaves the wheel no way: --behind keeps {:.4g} m and --ahead {:.4g} m\n  hint: "
+                    "--bed-length above {:.4g} m, or less --behind and --ahead",
                     size.length, rig.behind, rig.ahead, rig.behind + rig.ahead));
   check_end("--behind", rig.behind, tire), check_end("--ahead", rig.ahead, tire);
   if (rig.travel > room * (1 + 1e-9))  // whatever rounding says

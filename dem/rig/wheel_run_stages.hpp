@@ -159,7 +159,7 @@ void WheelRunStages<Run>::end_sample() {
   const auto& simulation = bin_.simulation();
   const std::vector<Contact> contacts = simulation.contacts();
   out.tread =
-      tread_of_all(simulation, tread_forces(contacts, bin_.wheel_index(), wheel().position, motion_, rig_.sectors));
+      tread_of_all(simulation, tread_forces(contacts, bin_.wheel_index(), wheel().position, motion_, stress_sectors));
   out.ledger = simulation.state().ledger;
   if (out.sinkage > tire_.radius)
     throw NoSolution(
@@ -188,10 +188,7 @@ void WheelRunStages<Run>::stages() {
     start();
     drive();
   }
-  if (samples_.empty())
-    throw InputError(
-        "the bed ends before the wheel is up to its speed\n  "
-        "hint: a longer bed");
+  if (samples_.empty()) throw InputError("the bed ends before the wheel is up to its speed\n  hint: a longer bed");
 }
 
 template <class Run>

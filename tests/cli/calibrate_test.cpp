@@ -41,10 +41,9 @@ TEST(CalibrateCommand, RefusesWhatMakesNoSenseWithAHint) {
   };
   for (const auto& [arguments, says] : wrong) {
     const Scratch scratch;
-    const Outcome outcome = soilbin(std::string(arguments) + " --store '" + (scratch / "store.json").string() + "'");
-    EXPECT_EQ(outcome.status, 2) << arguments;
-    EXPECT_THAT(outcome.err, HasSubstr(says)) << arguments;
-    EXPECT_EQ(outcome.out, "") << arguments;
+    EXPECT_THAT(soilbin(std::string(arguments) + " --store '" + (scratch / "store.json").string() + "'"),
+                Refuses(HasSubstr(says)))
+        << arguments;
   }
 }
 
@@ -57,8 +56,7 @@ TEST(CalibrateCommand, NamesAStoreThatIsNone) {
 /// Four grains across, two boards, the law that takes the longer step: seconds of work.
 const char* const small_board =
     "calibrate paper-sand --contact tire --target board_angle=31.47deg --rolling elastic_plastic --across 4 --packings "
-    "2 "
-    "--threads 1 ";
+    "2 --threads 1 ";
 
 TEST(SlowCalibrateCommand, FindsAContactKeepsItsRunsAndWritesASoil) {
   const Scratch scratch;

@@ -47,11 +47,23 @@ TEST(CommandWords, AreRefusedInOurs) {
   }
 }
 
+TEST(CommandWords, AnEmptyTextIsNoValue) {
+  for (const std::string words :
+       {"estimate --soil", "estimate --tire", "estimate --load", "estimate --effect", "estimate --plot",
+        "estimate --model", "run paper-smooth --record", "run paper-smooth --recorded", "run paper-smooth --wheel-mesh",
+        "run paper-smooth --csv", "vehicle rover --soil", "vehicle rover --driven", "vehicle rover --mass",
+        "loop made-lesson --limit", "loop made-lesson --seed", "plates a.csv --only"})
+    EXPECT_THAT(soilbin(words + " ''"),
+                Refuses(HasSubstr(words.substr(words.rfind("--")) + ": the text is empty\n  hint: ")))
+        << words;
+  EXPECT_THAT(soilbin("estimate --soil= --slip 20%"), Refuses(HasSubstr("--soil: the text is empty")));
+  EXPECT_THAT(soilbin("run ''"), Refuses(HasSubstr("an argument: the text is empty")));
+}
+
 TEST(CommandWords, WordsOfTheFieldLeadToOurs) {
   const std::pair<const char*, const char*> led[] = {
       {"estimate --soil dry-sand --grouser-height 8mm",
-       "'estimate' has no option '--grouser-height', did you mean "
-       "'--lug-height'?"},
+       "'estimate' has no option '--grouser-height', did you mean '--lug-height'?"},
       {"estimate --soil dry-sand --slope 8deg", "did you mean '--longitudinal-incline'?"},
       {"estimate rover-slip --effect grouser", "did you mean 'lug_thrust'?"},
       {"estimate rover-slip --effect lugs", "did you mean 'lug_thrust'?"},
@@ -64,9 +76,7 @@ TEST(CommandWords, WordsOfTheFieldLeadToOurs) {
       {"bevameter paper-sand --size 0.5", "hint: a larger --size"},
       {"list curiosity", "'curiosity' is in the list of tires\n  hint: soilbin list tires; the whole of it: "},
   };
-  for (const auto& [words, said] : led) {
-    EXPECT_THAT(soilbin(words, "timeout 20 "), Refuses(HasSubstr(said))) << words;
-  }
+  for (const auto& [words, said] : led) EXPECT_THAT(soilbin(words, "timeout 20 "), Refuses(HasSubstr(said))) << words;
   EXPECT_THAT(soilbin("limits --help").out, Not(AnyOf(HasSubstr("--slip "), HasSubstr("--longitudinal-incline"))));
 }
 

@@ -244,10 +244,9 @@ TEST(IgnoredInput, IsToldWithWhatReadsIt) {
 TEST(IgnoredInput, ASpeedOfACaseIsToldWhereNoModelReadsIt) {
   const Scratch scratch;
   const auto warned = [&](const std::string& models, const std::string& speed) {
-    const fs::path file = scratch.write("case.yaml",
-                                        "format: soilbin-case/1\nname: c\ntire: rover-wheel\nsoil: "
-                                        "dry-sand\nstudy:\n  models: [" +
-                                            models + "]\n  conditions: {load: 60 N, slip: 20 %, " + speed + "}\n");
+    const fs::path file = scratch.write(
+        "case.yaml", "format: soilbin-case/1\nname: c\ntire: rover-wheel\nsoil: dry-sand\nstudy:\n  models: [" +
+                         models + "]\n  conditions: {load: 60 N, slip: 20 %, " + speed + "}\n");
     const Outcome r = soilbin("run '" + file.string() + "'");
     EXPECT_EQ(r.status, 0) << r.err;
     return r.err.find("the speed is ignored: add --effect rate_dependence") != std::string::npos;
@@ -364,9 +363,7 @@ TEST(IgnoredInput, OfOtherCommands) {
       {"calibrate paper-sand --across 9", "--across has no effect on sand on sand"},
       {"calibrate paper-sand --contact tire --target board_angle=31deg --strength residual",
        "--strength has no effect on the tilting board"}};
-  for (const auto& [command, says] : wrong) {
-    EXPECT_THAT(soilbin(command), Refuses(HasSubstr(says))) << command;
-  }
+  for (const auto& [command, says] : wrong) EXPECT_THAT(soilbin(command), Refuses(HasSubstr(says))) << command;
 }
 
 }  // namespace

@@ -13,8 +13,6 @@
 #include "dem/bed/bed_store.hpp"
 #include "dem/rig/dem_model.hpp"
 #include "dem/rig/wheel_in_bin.hpp"
-#include "scenario/description.hpp"
-#include "scenario/errors.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/unit.hpp"
 #include "tests/dem/archive_scene.hpp"
@@ -325,8 +323,7 @@ TEST(SlowMovingPatch, ARunOnClumpsThatIsStoppedAgainAndAgainTellsTheSame) {
 }
 
 /// Mean over packings of a channel, and its error from their scatter.
-template <class Read>
-Estimate over(const std::vector<WheelRun>& runs, const Read& read) {
+Estimate over(const std::vector<WheelRun>& runs, const auto& read) {
   double sum = 0, squares = 0;
   for (const WheelRun& run : runs) sum += read(run), squares += read(run) * read(run);
   const double n = static_cast<double>(runs.size()), mean = sum / n;
@@ -447,8 +444,7 @@ Scenario small_scenario() {
   return scenario;
 }
 
-template <class Work>
-void expect_refused(const char* why, const Work& work) {
+void expect_refused(const char* why, const auto& work) {
   EXPECT_THAT(soilbin::test::refusal([&] { work(); }), HasSubstr(why));
 }
 
