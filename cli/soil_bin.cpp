@@ -7,11 +7,13 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "cli/described_flags.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/versions.hpp"
 #include "compare/doubts/grain_doubts.hpp"
 #include "dem/bed/relative_density.hpp"
+#include "dem/rig/rig_settings.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/quantity.hpp"
@@ -20,6 +22,7 @@
 namespace soilbin::cli {
 
 namespace fs = std::filesystem;
+using dem::SettingOf;
 
 std::filesystem::path folder_of_beds() {
   if (const char* folder = std::getenv("SOILBIN_BEDS"); folder && *folder) return folder;
@@ -44,79 +47,21 @@ void print_beside_progress(const std::string& words) {
 
 namespace {
 
-template <double dem::BedSize::*side>
-double& bed(dem::DemSettings& settings) {
-  return settings.size.*side;
+void add_settings(CLI::App& command, std::map<std::string, std::string>& texts,
+                  std::initializer_list<SettingOf> wanted) {
+  dem::DemSettings defaults;
+  dem::each_setting(
+      defaults, [&](const char* key, double& usual, const Measure& measure, SettingOf of, const char* meaning) {
+        const std::string flag = flag_of("", key);
+        if (std::ranges::find(wanted, of) == wanted.end()) return;
+        const auto& [unit, range] = measure;
+        const char* type = unit == "m" ? "LENGTH" : unit == "s" ? "TIME" : range.lower < 1 ? "SHARE" : "FACTOR";
+        add_value(command, flag, texts[flag], type, fmt::format(fmt::runtime(meaning), usual))->group(grains_heading);
+      });
 }
-template <double dem::DemSettings::*which>
-double& setting(dem::DemSettings& settings) {
-  return settings.*which;
-}
-template <double dem::Rig::*number>
-double& rig(dem::DemSettings& settings) {
-  return settings.rig.*number;
-}
-
-/// A number of bed or rig that a flag sets. In `meaning` "{}" stands for its default.
-struct SettingFlag {
-  const char *flag, *type, *meaning;
-  double& (*of)(dem::DemSettings&);
-  Range range = above_zero;
-  bool of_bed = false;  ///< a settled bed hangs on it
-  Measure measure() const { return {*type == 'L' ? "m" : *type == 'T' ? "s" : "-", range}; }  // by the type's letter
-};
-
-using R = dem::Rig;
-constexpr SettingFlag measure_flags[] = {
-    {"--bed-length", "LENGTH", "length of the bed; {} m", bed<&dem::BedSize::length>, above_zero, true},
-    {"--bed-width", "LENGTH", "width of the bed; {} m", bed<&dem::BedSize::width>, above_zero, true},
-    {"--bed-depth", "LENGTH", "depth of the bed; {} m", bed<&dem::BedSize::depth>, above_zero, true},
-    {"--graded",
-     "FACTOR",
-     "grains below and beside the track up to so many times larger than the soil's, which stay under the wheel; 1 .. "
-     "4; {}: the soil's grains everywhere",
-     setting<&dem::DemSettings::graded>,
-     {.lower = 1, .upper = 4},
-     true},
-    {"--graded-for", "LENGTH",
-     "with --graded: height of lugs for which the bed is fine too; a tire with lower lugs then "
-     "runs on the same bed; the tire's own",
-     setting<&dem::DemSettings::highest_lugs>, above_zero, true},
-    {"--behind", "LENGTH", "distance from the axle to the bin's rear end at the start; {} m", rig<&R::behind>},
-    {"--ahead", "LENGTH", "distance from the axle to the bin's front end when the run ends; {} m", rig<&R::ahead>},
-    {"--travel", "LENGTH", "distance that the axle travels; as far as the bin allows", rig<&R::travel>},
-    {"--lowering", "TIME", "time in which the load comes on; {} s", rig<&R::lowering>},
-    {"--resting", "TIME", "time under the whole load before the start; {} s", rig<&R::resting>, zero_or_more},
-    {"--tilting", "TIME", "time in which gravity turns to an incline; {} s", rig<&R::tilting>},
-    {"--time-step", "TIME", "time step of bed and run; a fifth of the Rayleigh time", rig<&R::dt>, above_zero, true},
-    {"--sleep",
-     "SHARE",
-     "far from the wheel, grains slower than this share of sqrt(g d) are not computed; {}; 0: all are",
-     rig<&R::sleep_speed>,
-     {.lower = 0, .upper = 0.1}},
-    {"--deepest-overlap",
-     "SHARE",
-     "share of the smaller radius by which grains may overlap before the run stops; {}",
-     rig<&R::deepest_overlap>,
-     {.lower = 0.05, .upper = 2}}};
-constexpr SettingFlag starting_flag{"--starting", "TIME", "time in which speed and rotation come on; {} s",
-                                    rig<&R::starting>};
-constexpr SettingFlag until_error_flag{
-    "--until-error",
-    "SHARE",
-    "with --patch and without --travel: the wheel goes on until the run is steady and its mean pull has a standard "
-    "error of this share of the load, 30 outer radii at most; {}",
-    rig<&R::until_error>,
-    {.lower = 1e-4, .upper = 0.5}};
 
 void add_patch_flag(CLI::App& command, bool& patch, const char* meaning) {
   command.add_flag("--patch", patch, meaning)->group(grains_heading);
-}
-
-void add(CLI::App& command, const SettingFlag& one, std::map<std::string, std::string>& texts) {
-  dem::DemSettings defaults;
-  const std::string meaning = fmt::format(fmt::runtime(one.meaning), one.of(defaults));
-  add_value(command, one.flag, texts[one.flag], one.type, meaning)->group(grains_heading);
 }
 
 }  // namespace
@@ -159,15 +104,14 @@ std::optional<dem::LammpsWorker> lammps_of(const SoilBinFlags& flags) {
 
 dem::DemSettings settings_of(const SoilBinFlags& flags) {
   dem::DemSettings settings;
-  const auto set = [&](const SettingFlag& one) {
-    set_where_given(one.flag, flags.text(one.flag), one.measure(), one.of(settings));
-  };
-  for (const SettingFlag& one : measure_flags) set(one);
+  dem::each_setting(settings, [&](const char* key, double& number, const Measure& measure, auto...) {
+    const std::string flag = flag_of("", key);
+    set_where_given(flag, flags.text(flag), measure, number);
+  });
   if (settings.highest_lugs > 0 && settings.graded == 1)
     throw InputError("--graded-for has no effect on a bed of the soil's grains everywhere\n  hint: --graded 2");
-  set(starting_flag), set(until_error_flag);
   settings.rig.patch = flags.patch;
-  if (!flags.text(until_error_flag.flag).empty() && !(flags.patch && flags.text("--travel").empty()))
+  if (!flags.text("--until-error").empty() && !(flags.patch && flags.text("--travel").empty()))
     throw InputError(
         "--until-error has no effect: it ends a run on a moving patch whose travel is not given\n  hint: "
         "--patch, without --travel");
@@ -195,12 +139,11 @@ std::string SoilBinFlags::text(const std::string& flag) const {
 }
 
 void SoilBinFlags::add_measures_to(CLI::App& command) {
-  for (const SettingFlag& one : measure_flags) add(command, one, texts);
+  add_settings(command, texts, {SettingOf::bed, SettingOf::run});
 }
 
 void SoilBinFlags::add_bed_to(CLI::App& command) {
-  for (const SettingFlag& one : measure_flags)
-    if (one.of_bed) add(command, one, texts);
+  add_settings(command, texts, {SettingOf::bed});
   add_patch_flag(command, patch, "the bed of a moving patch, which repeats itself every --bed-length");
   add_seed_to(command);
 }
@@ -227,13 +170,13 @@ void SoilBinFlags::add_seed_to(CLI::App& command) {
       ->group(grains_heading);
 }
 
-void SoilBinFlags::add_starting_to(CLI::App& command) { add(command, starting_flag, texts); }
+void SoilBinFlags::add_starting_to(CLI::App& command) { add_settings(command, texts, {SettingOf::start}); }
 
 void SoilBinFlags::add_patch_to(CLI::App& command) {
   add_patch_flag(command, patch,
                  "a moving patch: only the soil from --behind to --ahead of the axle is simulated and goes along with "
                  "the wheel, on a bed that repeats itself every --bed-length without an end");
-  add(command, until_error_flag, texts);
+  add_settings(command, texts, {SettingOf::patch});
 }
 
 void SoilBinFlags::add_packings_to(CLI::App& command) {

@@ -40,7 +40,7 @@ struct SteadyDrive {
   Estimate torque;            ///< of the motor [N m]
   Estimate forward;           ///< force of the soil along travel [N]
   double drift = 0;           ///< SteadyPart::drift of speed, sinkage and torque
-  bool steady = false;        ///< whether that is at most Rig::steady_drift
+  bool steady = false;        ///< whether that is at most most_steady_drift
 };
 
 struct GrainDriveRecord {

@@ -299,7 +299,7 @@ GrainDriveRecord FreeDrive::run() {
   bin_.run().through([&] { stages(); });
   record_.grains = number_of_grains(bin_.simulation().state());
   record_.earlier = bin_.run().earlier();
-  find_steady_part(record_, drive_, rig_.steady_drift);
+  find_steady_part(record_, drive_, most_steady_drift);
   return std::move(record_);
 }
 

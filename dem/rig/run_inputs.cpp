@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "dem/bed/bed_store.hpp"
+#include "dem/rig/rig_settings.hpp"
 #include "dem/rig/step_criteria.hpp"
 #include "dem/surface/mesh_files.hpp"
 #include "scenario/checksum.hpp"
@@ -39,20 +40,23 @@ void add_tire(Inputs& to, const Tire& tire) {
 }
 
 void add_rig(Inputs& to, const Rig& rig) {
-  add(to, "rig.mass", rig.mass), add(to, "rig.tilting", rig.tilting), add(to, "rig.lowering", rig.lowering);
-  add(to, "rig.resting", rig.resting), add(to, "rig.starting", rig.starting), add(to, "rig.behind", rig.behind);
-  add(to, "rig.ahead", rig.ahead), add(to, "rig.travel", rig.travel), add(to, "rig.sampling", rig.sampling);
-  add(to, "rig.sectors", rig.sectors), add(to, "rig.inertia", rig.inertia);
-  add(to, "rig.mesh_edge", rig.meshing.edge), add(to, "rig.chevron_angle", rig.meshing.chevron_angle);
-  if (!rig.meshing.drawn.empty())
-    to.emplace_back("rig.wheel_mesh", fnv1a_digits(read_bytes(rig.meshing.drawn, largest_mesh)));
-  add(to, "rig.young", rig.young), add(to, "rig.poisson", rig.poisson), add(to, "rig.skin", rig.skin);
-  add(to, "rig.deepest_overlap", rig.deepest_overlap), add(to, "rig.steady_drift", rig.steady_drift);
-  add(to, "rig.sleep_mean_speed", rig.sleep_speed);
-  if (rig.sleep_speed > 0) add(to, "rig.sleep_time", rig.sleep_time);
-  if (rig.drive_torque) add(to, "rig.drive_torque", *rig.drive_torque);
-  if (rig.patch) add(to, "rig.patch", 1);  // keys of runs without stay
-  if (rig.patch && rig.travel == 0) add(to, "rig.until_error", rig.until_error);
+  const auto is_read = [&](const std::string& key) {  // keys of runs without them stay
+    if (key == "sleep_time") return rig.sleep_speed > 0;
+    if (key == "until_error") return rig.patch && rig.travel == 0;
+    return key != "ledger" && key != "time_step";  // added by whoever knows how they are taken
+  };
+  describe_rig(rig, [&](const std::string& key, const auto& member, const auto&...) {
+    const std::string name = "rig." + (key == "sleep" ? "sleep_mean_speed" : key);
+    using Member = std::decay_t<decltype(member)>;
+    if (!is_read(key)) return;
+    if constexpr (std::is_same_v<Member, std::string>) {
+      if (!member.empty()) to.emplace_back(name, fnv1a_digits(read_bytes(member, largest_mesh)));
+    } else if constexpr (std::is_same_v<Member, std::optional<double>>) {
+      if (member) add(to, name, *member);
+    } else if (!std::is_same_v<Member, bool> || member) {
+      add(to, name, member);
+    }
+  });
 }
 
 /// To be raised when the same inputs give other bits, or a restart keeps something else.

@@ -11,7 +11,7 @@ namespace soilbin::dem {
 
 Setup run_setup(const WheelOnBed& on, int threads) {
   Setup setup = on.bed.setup;
-  const int tire = setup.materials.add({"tire", 1100, on.rig.young, on.rig.poisson});
+  const int tire = setup.materials.add({"tire", 1100, tire_young, tire_poisson});
   setup.materials.set(grain_material, tire, interaction_of(on.contact));
   setup.laws = with_cohesion_of(on.contact, setup.laws);
   if (on.rig.dt > 0) setup.numerics.dt = on.rig.dt;
@@ -20,7 +20,7 @@ Setup run_setup(const WheelOnBed& on, int threads) {
   setup.numerics.deepest_overlap = on.rig.deepest_overlap;
   setup.numerics.ledger = on.rig.ledger;
   const double g = on.bed.recipe.gravity, d = mean_diameter(on.bed.recipe.soil);
-  setup.numerics.sleep = {on.rig.sleep_speed * std::sqrt(g * d), on.rig.sleep_time * std::sqrt(d / g)};
+  setup.numerics.sleep = {on.rig.sleep_speed * std::sqrt(g * d), sleep_time * std::sqrt(d / g)};
   return setup;
 }
 

@@ -2,6 +2,7 @@
 
 #include "dem/archive/note_text.hpp"
 #include "dem/rig/bed_job.hpp"
+#include "dem/rig/rig_settings.hpp"
 #include "dem/rig/wheel_in_bin.hpp"
 #include "dem/rig/wheel_result.hpp"
 #include "scenario/atomic_file.hpp"
@@ -32,12 +33,9 @@ void archive(Notes& notes, OperatingCondition& at) {
 
 template <class Notes>
 void archive(Notes& notes, Rig& rig) {
-  auto& [mass, tilting, lowering, resting, starting, behind, ahead, travel, patch, until_error, sampling, sectors,
-         inertia, meshing, young, poisson, dt, skin, deepest_overlap, sleep_speed, sleep_time, ledger, steady_drift,
-         drive_torque, onlooker] = rig;  // the onlooker stays with the command; LAMMPS has no moving patch
-  notes(mass, tilting, lowering, resting, starting, behind, ahead, travel, sampling, sectors, inertia, meshing.edge,
-        meshing.chevron_angle, meshing.drawn, young, poisson, dt, skin, deepest_overlap, sleep_speed, sleep_time,
-        ledger, steady_drift, drive_torque);
+  describe_rig(rig, [&](const char*, auto& member, const auto&...) {
+    if constexpr (!std::is_const_v<std::remove_reference_t<decltype(member)>>) notes(member);
+  });
 }
 
 template <class Notes>

@@ -99,7 +99,7 @@ bool pull_is_known(std::span<const WheelSample> samples, const Tire& tire, const
                    const Rig& rig) {
   const Channels all = channels_of(samples, wheel_motion(at, tire.radius), at.force_frame);
   const SteadyPart part = steady_part({all.pull, all.torque, all.sinkage});
-  if (samples.size() - part.from < 16 || part.drift > rig.steady_drift) return false;
+  if (samples.size() - part.from < 16 || part.drift > most_steady_drift) return false;
   return mean_with_error(std::span(all.pull).subspan(part.from)).std_error <= rig.until_error * at.load;
 }
 
@@ -110,7 +110,7 @@ void summarise(WheelRun& run, const Tire& tire, const OperatingCondition& at, co
   run.steady_from = part.from, run.drift = part.drift;
   const std::span<const WheelSample> steady = std::span(run.samples).subspan(run.steady_from);
   const Channels kept = channels_of(steady, motion, at.force_frame);
-  run.steady = steady.size() >= 16 && run.drift <= rig.steady_drift;
+  run.steady = steady.size() >= 16 && run.drift <= most_steady_drift;
 
   TractionResult& result = run.result;
   result.at = at;

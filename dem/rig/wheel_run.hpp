@@ -45,7 +45,13 @@ struct Onlooker {
   std::shared_ptr<OnlookerKeeper> keeper;  ///< absent: a run that is gone on with is seen from there on
 };
 
-/// How the wheel is held, driven and read.
+inline constexpr int stress_sectors = 180;      ///< of the rim
+inline constexpr double tire_young = 1e9;       ///< of the tire, which is rigid beside the sand [Pa]
+inline constexpr double tire_poisson = 0.3;     ///< of the tire
+inline constexpr double most_steady_drift = 3;  ///< SteadyPart::drift of a steady run
+inline constexpr double sleep_time = 0.8;       ///< in sqrt(d/g), d the mean diameter of the grains
+
+/// How the wheel is held, driven and read (rig_settings.hpp lists the members).
 struct Rig {
   double mass = 0;        ///< that heaves with the wheel [kg]; 0: the load's, a dead weight
   double tilting = 0.3;   ///< time in which gravity turns, where the bed is inclined [s]
@@ -62,20 +68,16 @@ struct Rig {
   /// this share of the load; longest_way_on_patch at most.
   double until_error = 0.01;
   double sampling = 0.01;  ///< a sample's time [s]; forces are means over all its steps
-  int sectors = 180;       ///< of the rim, for stresses
   double inertia = 0;      ///< about the axle, where the rotation is free [kg m^2]; 0: mass r^2/2
   TireMeshing meshing;
-  double young = 1e9;            ///< of the tire, which is rigid beside the sand [Pa]
-  double poisson = 0.3;          ///< of the tire
   double dt = 0;                 ///< [s]; 0: the bed's
   double skin = 0.25;            ///< margin of the search for pairs, in largest radii
   double deepest_overlap = 0.5;  ///< of the smaller radius; chains of grains under a wheel are pressed hard
   /// Slabs of grains far from the wheel sleep (Sleep) whose speeds had a root mean square below this share of sqrt(g d)
-  /// for so many sqrt(d/g), d the mean diameter; 0: none does. The paper's wheel on grains of 40 mm then pulls within
+  /// for sleep_time, d the mean diameter; 0: none does. The paper's wheel on grains of 40 mm then pulls within
   /// its errors of what it pulls with all awake (docs/lab/dem-performance.md).
-  double sleep_speed = 0.003, sleep_time = 0.8;
-  bool ledger = false;      ///< tells where the power goes; a step takes about twice as long
-  double steady_drift = 3;  ///< largest SteadyPart::drift of a steady run
+  double sleep_speed = 0.003;
+  bool ledger = false;  ///< tells where the power goes; a step takes about twice as long
   /// A torque held instead of the rotation [N m]; the rotation is then free and starts at that of the condition's slip.
   /// 0 rolls freely.
   std::optional<double> drive_torque;
@@ -130,7 +132,7 @@ struct WheelRun {
 
 /// Runs it. The start-up is cut off at the latest end_of_start_up of pull,
 /// torque and sinkage; the rest is steady where neither its halves differ,
-/// nor a trend is in it, nor its last fifth differs, by more than Rig::steady_drift
+/// nor a trend is in it, nor its last fifth differs, by more than most_steady_drift
 /// standard errors (SteadyPart). For pass n > 1 the wheel first goes n - 1 times over
 /// the same stretch at the same condition, each time lifted clear, taken back
 /// and lowered onto its rut; the last pass is told, its sinkage from the

@@ -159,7 +159,7 @@ void WheelRunStages<Run>::end_sample() {
   const auto& simulation = bin_.simulation();
   const std::vector<Contact> contacts = simulation.contacts();
   out.tread =
-      tread_of_all(simulation, tread_forces(contacts, bin_.wheel_index(), wheel().position, motion_, rig_.sectors));
+      tread_of_all(simulation, tread_forces(contacts, bin_.wheel_index(), wheel().position, motion_, stress_sectors));
   out.ledger = simulation.state().ledger;
   if (out.sinkage > tire_.radius)
     throw NoSolution(

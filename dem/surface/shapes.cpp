@@ -295,7 +295,7 @@ TriangleMesh tire_surface(const Tire& tire, const TireMeshing& meshing) {
     return smooth_wheel(tire.radius, tire.width, segments, meshing.edge);
   }
   const LugPattern pattern = tire.lugs.pattern;
-  const double angle = tire.lugs.angle.value_or(pattern == LugPattern::straight ? 0.0 : meshing.chevron_angle);
+  const double angle = tire.lugs.angle.value_or(pattern == LugPattern::straight ? 0.0 : usual_lug_angle);
   require(name, angle >= 0 && angle <= 1.2, fmt::format("a chevron angle of {} rad", angle), "it is from 0 to 1.2 rad");
   require(name, pattern != LugPattern::straight || angle == 0,
           fmt::format("straight lugs at an angle of {} rad", angle),

@@ -26,11 +26,12 @@ TriangleMesh plate(double length_x, double length_y, int n, int m);
 /// along the axle and on the sides. Its volume is width (n/2) r^2 sin(2 pi/n).
 TriangleMesh smooth_wheel(double radius, double width, int segments, double edge = any_edge);
 
+inline constexpr double usual_lug_angle = 0.5;  ///< of slanted bars to the axle where a tire tells none, chosen [rad]
+
 /// How a tire is cut into triangles.
 struct TireMeshing {
-  double edge = 0.02;          ///< [m] target length of edges: cells round the tread, along the axle and on the sides
-  double chevron_angle = 0.5;  ///< [rad] of slanted bars to the axle where a tire tells none, chosen; from 0 to 1.2
-  std::string drawn{};         ///< file with the wheel as drawn, .stl or .obj, in place of all this; empty: none
+  double edge = 0.02;   ///< [m] target length of edges: cells round the tread, along the axle and on the sides
+  std::string drawn{};  ///< file with the wheel as drawn, .stl or .obj, in place of all this; empty: none
 };
 
 /// The tread base is a cylinder of tire.radius and tire.width, its vertices on the radius. On it stand lugs.count bars

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "compare/experiments/soil_bin_runs.hpp"
+#include "dem/rig/rig_settings.hpp"
 #include "notebooks/bindings/vectors.hpp"
 #include "scenario/case.hpp"
 #include "scenario/errors.hpp"
@@ -78,32 +79,16 @@ class SoilBin {
   dem::DemModel model_;
 };
 
-/// Numbers of the settings by name, wherever they stand.
-struct Setting {
-  const char* name;
-  double& (*of)(DemSettings&);
-  const char* doc;
-};
-
-const Setting settings_by_name[] = {
-    {"length", [](DemSettings& s) -> double& { return s.size.length; }, "of the bed [m]"},
-    {"width", [](DemSettings& s) -> double& { return s.size.width; }, "of the bed [m]; a scenario's bin replaces it"},
-    {"depth", [](DemSettings& s) -> double& { return s.size.depth; }, "of the bed [m]; a scenario's bin replaces it"},
-    {"settling_friction", [](DemSettings& s) -> double& { return s.settling_friction; },
-     "share of friction while the bed settles [-], 0 (densest) .. 1 (loose)"},
-    {"behind", [](DemSettings& s) -> double& { return s.rig.behind; }, "of the axle to the rear end, at the start [m]"},
-    {"ahead", [](DemSettings& s) -> double& { return s.rig.ahead; }, "of the axle to the front end, at the end [m]"},
-    {"travel", [](DemSettings& s) -> double& { return s.rig.travel; }, "of the axle [m]; 0: as far as the bin lets it"},
-    {"lowering", [](DemSettings& s) -> double& { return s.rig.lowering; }, "time in which the load comes on [s]"},
-    {"resting", [](DemSettings& s) -> double& { return s.rig.resting; }, "time under the load before the start [s]"},
-    {"starting", [](DemSettings& s) -> double& { return s.rig.starting; }, "time in which the motion comes on [s]"},
-    {"graded", [](DemSettings& s) -> double& { return s.graded; },
-     "grains below and beside the track up to so many times larger [-], 1 .. 4"},
-    {"until_error", [](DemSettings& s) -> double& { return s.rig.until_error; },
-     "with patch and without travel: share of the load to which the mean pull is to be known [-]"},
-    {"dt", [](DemSettings& s) -> double& { return s.rig.dt; }, "[s]; 0: a fifth of the Rayleigh time"},
-    {"deepest_overlap", [](DemSettings& s) -> double& { return s.rig.deepest_overlap; },
-     "of the smaller radius that grains may overlap [-]"}};
+/// Calls on(keyword, number, meaning) for each number of the settings.
+template <class On>
+void each_keyword(DemSettings& settings, const On& on) {
+  on("settling_friction", settings.settling_friction, "share of friction while the bed settles, 0 (densest) .. 1");
+  dem::each_setting(
+      settings, [&](const std::string& key, double& number, const Measure& measure, auto, const char* meaning) {
+        const std::string keyword = key == "time_step" ? "dt" : key.starts_with("bed_") ? key.substr(4) : key;
+        on(keyword, number, fmt::format(fmt::runtime(meaning), number) + " [" + measure.unit + "]");
+      });
+}
 
 /// Where settled beds are kept, if anywhere.
 using Beds = std::optional<std::filesystem::path>;
@@ -113,8 +98,9 @@ DemSettings settings_of(const py::kwargs& numbers, std::uint64_t packing, const 
   DemSettings out;
   for (const auto& [key, value] : numbers) {
     bool known = false;
-    for (const Setting& setting : settings_by_name)
-      if (key.cast<std::string>() == setting.name) setting.of(out) = value.cast<double>(), known = true;
+    each_keyword(out, [&](const std::string& keyword, double& number, const std::string&) {
+      if (key.cast<std::string>() == keyword) number = value.cast<double>(), known = true;
+    });
     if (!known) throw py::type_error("SoilBin has no setting '" + key.cast<std::string>() + "'");
   }
   if (threads < 0) throw InputError("threads: 0 (one a core) or more");
@@ -126,12 +112,13 @@ DemSettings settings_of(const py::kwargs& numbers, std::uint64_t packing, const 
 std::string settings_doc() {
   std::string doc =
       "packing: seed of the bed. beds: folder that keeps settled beds, and runs that are stopped, which then go on; "
-      "None: "
-      "neither is kept. ledger: tells "
-      "where the power goes. threads: 0, one a core or fewer; changes no bit. patch: a moving patch: only the soil "
-      "from "
-      "behind to ahead of the axle, on a bed that repeats itself every length. By keywords:";
-  for (const Setting& setting : settings_by_name) doc += "\n  " + std::string(setting.name) + ": " + setting.doc;
+      "None: neither is kept. ledger: tells where the power goes. threads: 0, one a core or fewer; changes no bit. "
+      "patch: a moving patch: only the soil from behind to ahead of the axle, on a bed that repeats itself every "
+      "length. By keywords:";
+  DemSettings defaults;
+  each_keyword(defaults, [&](const std::string& keyword, double&, const std::string& meaning) {
+    doc += "\n  " + keyword + ": " + meaning;
+  });
   return doc;
 }
 

@@ -151,7 +151,7 @@ TEST(Shapes, TheVolumeOfStraightBarsIsThatOfTheirPolygon) {
 
 TEST(Shapes, EdgesKeepToTheirTarget) {
   for (const LugPattern pattern : {LugPattern::straight, LugPattern::chevron}) {
-    const TriangleMesh mesh = tire_surface(paper_tire(pattern), {.edge = 0.02, .chevron_angle = 0.5});
+    const TriangleMesh mesh = tire_surface(paper_tire(pattern), {.edge = 0.02});
     // Cells of 0.02 (0.0204 on the tops) sheared by tan(0.5): their longer diagonal; on the sides rings are joined
     // askew.
     EXPECT_LT(longest_edge(mesh), 0.02 * std::hypot(1.03 + std::tan(0.5), 1.0) * 1.02);
@@ -160,7 +160,7 @@ TEST(Shapes, EdgesKeepToTheirTarget) {
 
 // The centre line leads: rolling to +x the top goes to +x, so there the bar's middle is ahead of its ends.
 TEST(Shapes, AChevronLeadsOnTheCentreLine) {
-  const TriangleMesh mesh = tire_surface(paper_tire(LugPattern::chevron), {.edge = 0.01, .chevron_angle = 0.5});
+  const TriangleMesh mesh = tire_surface(paper_tire(LugPattern::chevron), {.edge = 0.01});
   const auto top_of_bar = [&](double y) {  // mean x of the vertices of the top bar's upper side at this y
     double sum = 0, n = 0;
     for (const Vec3& p : mesh.vertices()) {
@@ -273,9 +273,8 @@ TEST(Shapes, RefuseWhatCanNotBe) {
   EXPECT_THAT(shape_refusal([&] { tire_surface(tire); }), testing::HasSubstr("the thickness of the lugs is not known"));
   tire = paper_tire(LugPattern::straight), tire.lugs.thickness = 0.078;
   EXPECT_THAT(shape_refusal([&] { tire_surface(tire); }), testing::HasSubstr("leave no gap"));
-  tire = paper_tire(LugPattern::chevron);
-  EXPECT_THAT(shape_refusal([&] { tire_surface(tire, {.chevron_angle = 1.5}); }),
-              testing::HasSubstr("chevron angle of 1.5"));
+  tire = paper_tire(LugPattern::chevron), tire.lugs.angle = 1.5;
+  EXPECT_THAT(shape_refusal([&] { tire_surface(tire); }), testing::HasSubstr("chevron angle of 1.5"));
   tire = paper_tire(LugPattern::straight), tire.lugs.angle = 0.3;
   EXPECT_THAT(shape_refusal([&] { tire_surface(tire); }), testing::HasSubstr("straight lugs at an angle of 0.3 rad"));
   tire = paper_tire(LugPattern::staggered), tire.lugs.thickness = 0.04;  // half the pitch is 39 mm
