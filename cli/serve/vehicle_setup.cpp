@@ -23,9 +23,11 @@ Json choice_json(const char* key, const char* title, E value) {
 /// Lists of words that the page offers.
 Json choices_json(const compare::VehicleCase& vehicle) {
   Json choices = Json::array({choice_json("drive-line", "Drive line", vehicle.drive_line)});
-  if (vehicle.axles.size() > 1)
-    choices.push_back(choice_json("centre-differential", "Centre differential",
-                                  vehicle.centre_differential.value_or(compare::Differential::locked)));
+  if (vehicle.axles.size() == 1) return choices;
+  choices.push_back(choice_json("centre-differential", "Centre differential",
+                                vehicle.centre_differential.value_or(compare::Differential::locked)));
+  for (const Word<compare::DriveLine>& line : words_of(std::type_identity<compare::DriveLine>{}))
+    if (compare::without_differentials(line.value).empty()) choices.back()["drive_lines"].push_back(line.text);
   return choices;
 }
 

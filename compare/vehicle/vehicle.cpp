@@ -13,6 +13,13 @@
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
+
+std::string without_differentials(DriveLine line) {
+  if (line == DriveLine::motors) return "the drive_line 'motors' has a motor a wheel and no differentials";
+  if (line == DriveLine::sides) return "the drive_line 'sides' turns each side by itself and has no differentials";
+  return "";
+}
+
 namespace {
 
 /// Whether the wheels of a vehicle stand in more than one place along an axis.
@@ -31,13 +38,6 @@ bool in_a_slanting_line(const std::vector<VehicleWheel>& wheels) {
   return std::ranges::all_of(wheels, [&](const VehicleWheel& wheel) {
     return std::abs((wheel.place.x - wheels[0].place.x) * across - (wheel.place.y - wheels[0].place.y) * along) < 1e-9;
   });
-}
-
-/// Why a drive line has no differentials; empty where it has.
-std::string without_differentials(DriveLine line) {
-  if (line == DriveLine::motors) return "the drive_line 'motors' has a motor a wheel and no differentials";
-  if (line == DriveLine::sides) return "the drive_line 'sides' turns each side by itself and has no differentials";
-  return "";
 }
 
 std::string contradiction_in_centre(const VehicleCase& vehicle) {

@@ -40,6 +40,9 @@ constexpr std::array<Word<DriveLine>, 4> words_of(std::type_identity<DriveLine>)
            {"motors", DriveLine::motors}}};
 }
 
+/// Why a drive line has no differentials; empty where it has.
+std::string without_differentials(DriveLine line);
+
 /// Whether two shafts that are driven together may turn unlike.
 enum class Differential {
   locked,  ///< both have one speed

@@ -88,6 +88,19 @@ class ThePage(VehiclePage):
         self.assertNotIn("--driven", self.command())
         self.reset()
 
+    def test_3_a_centre_differential_is_offered_beside_drive_lines_that_take_one(self):
+        hidden = f"{self.listed('Centre differential')}.parentNode.hidden"
+        self.assertTrue(self.js(hidden), "the rover has a motor a wheel")
+        self.choose("Drive line", "open_axles")
+        self.assertFalse(self.js(hidden))
+        self.choose("Centre differential", "open")
+        self.assertIn("--centre-differential=open", self.command())
+        self.choose("Drive line", "sides")
+        self.assertTrue(self.js(hidden))
+        self.assertNotIn("centre-differential", self.command())
+        self.assertFalse(self.js("Boolean(soilbin.live.refused)"))
+        self.reset()
+
     def test_3_one_axle_at_least_is_driven(self):
         self.tick("front")
         self.tick("rear")

@@ -139,7 +139,11 @@ class AVehicle(unittest.TestCase):
             self.assertGreater(n["step"], 0, n)
             self.assertTrue(n["lower"] <= n["value"] <= n["upper"], n)
         self.assertEqual(start["axles"], [{"name": "front", "driven": True}, {"name": "rear", "driven": True}])
-        self.assertEqual(start["choices"][0]["words"], ["locked", "open_axles", "sides", "motors"])
+        line, centre = start["choices"]
+        self.assertEqual(line["words"], ["locked", "open_axles", "sides", "motors"])
+        for word in line["words"]:  # the page offers a centre differential where the server takes it
+            status, _ = self.server.answer("/state", **{"drive-line": word, "centre-differential": "locked"})
+            self.assertEqual(status == 200, word in centre["drive_lines"], word)
         self.assertEqual([e["on"] for e in start["effects"] if e["on"]], ["multipass:stiffer"])
         _, served = self.server.answer("/state", mass="9t", pull="-2500 N", friction_angle="30+-1deg")
         numbers = {n["key"]: n for n in served["numbers"]}

@@ -20,10 +20,29 @@ soilbin.VehiclePage = class extends soilbin.LivePage {
     return [
       this.group('Condition', true, ...this.numbersOf('condition')),
       this.group('Vehicle', wide, ...this.numbersOf('vehicle'),
-                 ...start.choices.map(({key, title, value, words}) => this.list(title, words.map(w => [w, w.replaceAll('_', ' ')]), key, value)),
+                 ...start.choices.map(choice => this.choice(choice)),
                  this.drivenAxles()),
       this.group('Soil', wide, this.preset('Soil', 'soil', start.soil, start.soils), ...this.numbersOf('soil')),
       this.effectsGroup()];
+  }
+
+  choice(choice) {
+    const options = choice.words.map(word => [word, word.replaceAll('_', ' ')]);
+    return choice.element = this.list(choice.title, options, choice.key, choice.value);
+  }
+
+  // A list that goes with some drive lines alone is hidden beside the others, and what it says is taken back.
+  set(key, text, start) {
+    if (key === 'drive-line')
+      for (const {key: other, drive_lines} of this.start.choices)
+        if (drive_lines && !drive_lines.includes(text)) this.state.delete(other);
+    super.set(key, text, start);
+    this.showLists();
+  }
+  showLists() {
+    super.showLists();
+    const line = this.state.get('drive-line') || this.start.choices[0].value;
+    for (const {element, drive_lines} of this.start.choices) element.hidden = drive_lines && !drive_lines.includes(line);
   }
 
   // A box for each axle: whether it is driven.
