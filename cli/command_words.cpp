@@ -97,6 +97,19 @@ std::string refusal_of(const CLI::ParseError& error, const std::string& command)
   return text;
 }
 
+std::string empty_text(const std::vector<std::string>& words) {
+  std::string before = "an argument";
+  for (const std::string& word : words) {
+    const bool is_flag = word.starts_with("--"), lacks_value = is_flag && word.find('=') == word.size() - 1;
+    if (word.empty() || lacks_value)
+      return fmt::format(
+          "{}: the text is empty\n  hint: give a value, or leave it out; a variable of the shell may not be set",
+          lacks_value ? word.substr(0, word.size() - 1) : before);
+    before = is_flag ? word : "an argument";
+  }
+  return "";
+}
+
 std::string unknown_flag(const CLI::App& command, const std::vector<std::string>& words) {
   std::vector<std::string> flags;
   for (const CLI::Option* option : command.get_options())

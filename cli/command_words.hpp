@@ -13,6 +13,9 @@ std::string command_line(const std::vector<std::string>& words);
 /// What is wrong with the words of a command ("estimate ") that CLI11 refuses, in ours, with a hint.
 std::string refusal_of(const CLI::ParseError& error, const std::string& command);
 
+/// Names the flag before the first word that is "", as an unset variable of the shell gives it; "" for none.
+std::string empty_text(const std::vector<std::string>& words);
+
 /// Names the first of the words that looks like a flag ("--...", up to "--") and is none of the command's, with the
 /// nearest right one and a hint; "" for none.
 std::string unknown_flag(const CLI::App& command, const std::vector<std::string>& words);

@@ -142,6 +142,7 @@ int run(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.empty()) return fmt::print("{}", app.help()), bad_input;
   if (const std::string hint = misspelt(app, words); !hint.empty()) return refuse(hint);
+  if (const std::string hint = empty_text(words); !hint.empty()) return refuse(hint);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -49,8 +49,8 @@ VehicleQuestion::VehicleQuestion(CLI::App& app) {
 void VehicleQuestion::change(compare::VehicleCase& vehicle) const {
   machine_.apply(vehicle);
   centre_of_gravity_.apply(vehicle.centre_of_gravity);
-  if (driven_) drive_axles(*driven_, vehicle.axles);
-  if (!machine_.any_given() && !centre_of_gravity_.any_given() && !driven_) return;
+  if (!driven_.empty()) drive_axles(driven_, vehicle.axles);
+  if (!machine_.any_given() && !centre_of_gravity_.any_given() && driven_.empty()) return;
   vehicle.name += ", changed";
   if (const std::string wrong = contradiction(vehicle); !wrong.empty())
     throw InputError(wrong + "\n  hint: these flags do not go with that; a file of your own says all of it");

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,8 +37,7 @@ class VehicleQuestion {
  private:
   void change(compare::VehicleCase& vehicle) const;
 
-  std::string name_, soil_;
-  std::optional<std::string> driven_;
+  std::string name_, soil_, driven_;
   std::vector<std::string> effects_;
   SoilFlags soil_values_;
   DescribedFlags<compare::VehicleCondition> condition_;

@@ -47,6 +47,19 @@ TEST(CommandWords, AreRefusedInOurs) {
   }
 }
 
+TEST(CommandWords, AnEmptyTextIsNoValue) {
+  for (const std::string words :
+       {"estimate --soil", "estimate --tire", "estimate --load", "estimate --effect", "estimate --plot",
+        "estimate --model", "run paper-smooth --record", "run paper-smooth --recorded", "run paper-smooth --wheel-mesh",
+        "run paper-smooth --csv", "vehicle rover --soil", "vehicle rover --driven", "vehicle rover --mass",
+        "loop made-lesson --limit", "loop made-lesson --seed", "plates a.csv --only"})
+    EXPECT_THAT(soilbin(words + " ''"),
+                Refuses(HasSubstr(words.substr(words.rfind("--")) + ": the text is empty\n  hint: ")))
+        << words;
+  EXPECT_THAT(soilbin("estimate --soil= --slip 20%"), Refuses(HasSubstr("--soil: the text is empty")));
+  EXPECT_THAT(soilbin("run ''"), Refuses(HasSubstr("an argument: the text is empty")));
+}
+
 TEST(CommandWords, WordsOfTheFieldLeadToOurs) {
   const std::pair<const char*, const char*> led[] = {
       {"estimate --soil dry-sand --grouser-height 8mm",
