@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenario/unit.hpp"
-
 namespace soilbin::bekker_wong {
 
 double specific_weight(const SoilValues& soil) { return soil.density * soil.gravity; }

@@ -1,7 +1,5 @@
 #include "bekker_wong/effect_vocabulary.hpp"
 
-#include <algorithm>
-
 #include "bekker_wong/effect.hpp"
 #include "bekker_wong/learned.hpp"
 

@@ -11,7 +11,6 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "compare/calibrate/published_sets.hpp"
-#include "compare/sweep/result_json.hpp"
 #include "compare/telling/calibration_report.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/csv.hpp"

@@ -7,7 +7,6 @@
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/csv.hpp"
-#include "scenario/description.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 

@@ -1,6 +1,5 @@
 #include "resistive_force/response.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -4,7 +4,6 @@
 #include <set>
 #include <system_error>
 
-#include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/yaml_node.hpp"
 

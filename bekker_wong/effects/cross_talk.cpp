@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "bekker_wong/effects/forms.hpp"
-#include "bekker_wong/effects/instrument_channels.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "bekker_wong/effects/learned_joints.hpp"
-#include "scenario/estimate.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {

@@ -7,7 +7,6 @@
 //
 // How much of the resistance is called up: 1 - exp(-|q|) with q = j_y/K + D/R, j_y the sideways travel since the entry,
 // D the load's share along the slope, R the whole resistance. Ishigami 2007 takes all of it at once.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

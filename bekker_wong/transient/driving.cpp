@@ -1,6 +1,5 @@
 #include "bekker_wong/transient/driving.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "bekker_wong/transient/cvodes.hpp"

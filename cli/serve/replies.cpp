@@ -17,7 +17,6 @@
 #include "compare/telling/answer_report.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/csv.hpp"
-#include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::cli {

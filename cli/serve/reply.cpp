@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "cli/flag_values.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/page.hpp"
 #include "scenario/errors.hpp"

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include "cli/outputs.hpp"
 #include "cli/question.hpp"
 #include "cli/serve/controls.hpp"
 #include "compare/report/json_fields.hpp"

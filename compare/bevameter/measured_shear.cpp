@@ -12,7 +12,6 @@
 #include "compare/report/number_text.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
-#include "scenario/quantity.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -1,6 +1,5 @@
 #include "compare/experiments/virtual_bevameter.hpp"
 
-#include "compare/experiments/plate_curves.hpp"
 #include "dem/element_tests/tool_bed.hpp"
 
 namespace soilbin::compare {

@@ -6,7 +6,6 @@
 #include <functional>
 #include <vector>
 
-#include "bekker_wong/model.hpp"
 #include "compare/design/factor.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_resolution.hpp"

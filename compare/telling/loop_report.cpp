@@ -18,7 +18,6 @@
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/bars.hpp"
 #include "compare/report/number_text.hpp"
-#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
 namespace {

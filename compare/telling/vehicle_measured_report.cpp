@@ -1,7 +1,6 @@
 // A vehicle beside measured states of it as it is told; soilbin-vehicle-measured/1.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "compare/report/json_fields.hpp"

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "bekker_wong/effect.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/telling/reports.hpp"
 #include "compare/telling/vehicle_words.hpp"

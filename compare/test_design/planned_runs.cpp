@@ -6,12 +6,10 @@
 #include <cmath>
 #include <set>
 
-#include "bekker_wong/effects/titles.hpp"
 #include "compare/design/factor.hpp"
 #include "compare/fit/thresholds.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/measured/run_columns.hpp"
-#include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "scenario/errors.hpp"
-#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
 

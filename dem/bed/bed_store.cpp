@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <optional>
-#include <system_error>
 #include <variant>
 
 #include "dem/archive/restart.hpp"

@@ -1,7 +1,6 @@
 #include "dem/bed/relative_density.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "scenario/estimate.hpp"
 #include "scenario/file_bytes.hpp"

@@ -8,7 +8,6 @@
 
 #include "dem/bed/grain_shape.hpp"
 #include "dem/bed/surface_height.hpp"
-#include "scenario/errors.hpp"
 #include "scenario/grain_sizes.hpp"
 
 namespace soilbin::dem {

@@ -6,7 +6,6 @@
 
 #include "dem/element_tests/tool_bed.hpp"
 #include "dem/surface/shapes.hpp"
-#include "scenario/errors.hpp"
 
 namespace soilbin::dem {
 namespace {

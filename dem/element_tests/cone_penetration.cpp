@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "dem/element_tests/tool_bed.hpp"
-#include "scenario/errors.hpp"
 
 namespace soilbin::dem {
 namespace {

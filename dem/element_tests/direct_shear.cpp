@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "dem/surface/shapes.hpp"
-#include "scenario/errors.hpp"
 
 namespace soilbin::dem {
 namespace {

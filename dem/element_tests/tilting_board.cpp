@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "dem/bed/grain_shape.hpp"
-#include "scenario/errors.hpp"
 
 namespace soilbin::dem {
 namespace {

@@ -6,8 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "scenario/errors.hpp"
-
 namespace soilbin::dem {
 namespace {
 

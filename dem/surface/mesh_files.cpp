@@ -19,7 +19,6 @@
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <vector>
 
 #include "dem/surface/mesh_checks.hpp"
 #include "dem/surface/positive.hpp"

@@ -1,6 +1,5 @@
 // Closed forms of grains of several spheres: mass properties, free precession, an impact at a slant, the slope on which
 // one tips. On the fast engine whichever is started.
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

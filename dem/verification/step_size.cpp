@@ -8,7 +8,6 @@
 #include "dem/engine/laws/contact_law.hpp"
 #include "dem/rig/wheel_run.hpp"
 #include "dem/verification/cases.hpp"
-#include "dem/verification/impact.hpp"
 
 namespace soilbin::dem {
 namespace {

@@ -13,7 +13,6 @@
 #include "dem/engine/pair_touch.hpp"
 #include "dem/worker_lammps/lammps_simulation.hpp"
 #include "dem/worker_lammps/processes.hpp"
-#include "scenario/errors.hpp"
 
 namespace soilbin::dem {
 namespace {

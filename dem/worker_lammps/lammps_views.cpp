@@ -1,8 +1,6 @@
 // What can be seen of a run in LAMMPS from outside: its grains, contacts and unrest, over all processes where it says
 // so.
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "dem/bed/settled_bed.hpp"
 #include "dem/worker_lammps/lammps_simulation.hpp"

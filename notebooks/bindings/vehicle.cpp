@@ -4,7 +4,6 @@
 #include <variant>
 
 #include "bekker_wong/model.hpp"
-#include "compare/doubts/doubts.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/telling/reports.hpp"
 #include "compare/vehicle/vehicle_answers.hpp"

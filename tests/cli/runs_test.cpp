@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
-#include <map>
 #include <random>
 
 #include "cli/command.hpp"

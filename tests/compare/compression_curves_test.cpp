@@ -7,7 +7,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "compare/calibrate/calibration.hpp"
 #include "compare/experiments/element_experiments.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/unit.hpp"

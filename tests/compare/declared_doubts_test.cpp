@@ -6,7 +6,6 @@
 
 #include "compare/doubt_matchers.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "scenario/named_parts.hpp"
 #include "tests/fixtures.hpp"
 
 namespace soilbin::compare {

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scenario/errors.hpp"
 #include "scenario/tire_size.hpp"
 #include "tests/scenario/refusal.hpp"
 

@@ -9,7 +9,6 @@
 #include "compare/discrepancy/comparison.hpp"
 #include "compare/doubt_matchers.hpp"
 #include "compare/telling/comparison_report.hpp"
-#include "scenario/errors.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -4,9 +4,7 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <set>
 

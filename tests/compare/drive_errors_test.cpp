@@ -7,7 +7,6 @@
 #include "bekker_wong/drive_fixture.hpp"
 #include "bekker_wong/limits.hpp"
 #include "compare/drives/drive.hpp"
-#include "compare/drives/drive_sides.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/soil_parameters.hpp"
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "bekker_wong/effect_vocabulary.hpp"
-#include "bekker_wong/transient/driving.hpp"
 #include "scenario/case.hpp"
 #include "scenario/soil_parameters.hpp"
 

@@ -14,12 +14,11 @@
 #include <vector>
 
 #include "compare/attribution/base_fit.hpp"
-#include "compare/attribution/choice.hpp"
 #include "compare/attribution/predictive_gain.hpp"
+#include "compare/attribution/residual_tests.hpp"
 #include "compare/attribution/signatures.hpp"
 #include "compare/attribution/unnamed.hpp"
 #include "compare/fit/setpoint_squares.hpp"
-#include "compare/fit/thresholds.hpp"
 #include "compare/loop_fixture.hpp"
 #include "compare/measured/condition_views.hpp"
 

@@ -3,8 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
-
 #include "compare/experiments/element_experiments.hpp"
 #include "compare/report/report.hpp"
 #include "compare/telling/reports.hpp"

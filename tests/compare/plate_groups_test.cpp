@@ -12,7 +12,6 @@
 #include "compare/bevameter/measured_shear.hpp"
 #include "compare/doubt_matchers.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/report/json_fields.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/case.hpp"
 #include "tests/scenario/refusal.hpp"

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include "bekker_wong/effect_vocabulary.hpp"
-#include "scenario/errors.hpp"
 #include "tests/dem/archive_scene.hpp"
 #include "tests/dem/small_bed.hpp"
 #include "tests/scenario/refusal.hpp"

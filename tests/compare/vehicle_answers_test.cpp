@@ -16,7 +16,6 @@
 #include "compare/vehicle/vehicle_doubts.hpp"
 #include "scenario/soil_parameters.hpp"
 #include "scenario/unit.hpp"
-#include "scenario/yaml_node.hpp"
 
 namespace soilbin::compare {
 namespace {

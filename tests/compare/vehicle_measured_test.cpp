@@ -11,7 +11,6 @@
 #include "bekker_wong/model.hpp"
 #include "compare/report/report.hpp"
 #include "compare/telling/reports.hpp"
-#include "compare/vehicle/vehicle_errors.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/unit.hpp"
 #include "tests/scenario/refusal.hpp"

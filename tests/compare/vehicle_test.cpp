@@ -1,7 +1,6 @@
 // A vehicle on soil: its statics by closed forms on ground that is hard, and on soil what must hold whatever the soil.
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>

@@ -7,13 +7,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdarg>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <regex>
-#include <set>
 
 #include "bekker_wong/transient/driving.hpp"
 #include "compare/rover_fixture.hpp"

@@ -3,8 +3,6 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "dem/bed/random.hpp"
 #include "dem/engine/simulation.hpp"
 #include "tests/dem/reference_engine.hpp"

@@ -8,7 +8,6 @@
 #include "dem/archive/restart.hpp"
 #include "dem/bed/grain_shape.hpp"
 #include "dem/element_tests/direct_shear.hpp"
-#include "dem/surface/turning.hpp"
 #include "scenario/errors.hpp"
 #include "tests/dem/archive_scene.hpp"
 #include "tests/dem/small_bed.hpp"

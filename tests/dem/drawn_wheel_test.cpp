@@ -18,7 +18,6 @@
 #include "dem/surface/mass_properties.hpp"
 #include "dem/surface/mesh_files.hpp"
 #include "dem/surface/shapes.hpp"
-#include "dem/surface/touching_points.hpp"
 #include "scenario/errors.hpp"
 #include "tests/dem/plates_of_triangles.hpp"
 #include "tests/scenario/refusal.hpp"

@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "dem/rig/dem_model.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 #include "tests/dem/small_bed.hpp"

@@ -13,8 +13,6 @@
 #include "dem/bed/bed_store.hpp"
 #include "dem/rig/dem_model.hpp"
 #include "dem/rig/wheel_in_bin.hpp"
-#include "scenario/description.hpp"
-#include "scenario/errors.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/unit.hpp"
 #include "tests/dem/archive_scene.hpp"

@@ -13,7 +13,6 @@
 #include "dem/surface/mass_properties.hpp"
 #include "dem/surface/touching_points.hpp"
 #include "dem/surface/triangle_grid.hpp"
-#include "scenario/errors.hpp"
 #include "tests/scenario/refusal.hpp"
 
 namespace soilbin::dem {

@@ -6,11 +6,9 @@
 
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "dem/plates_of_triangles.hpp"
 #include "dem/surface/mass_properties.hpp"
-#include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 #include "tests/scenario/refusal.hpp"
 

@@ -1,7 +1,6 @@
 // A few grains in LAMMPS and in the engine: the same motion, step by step.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <map>
 #include <memory>
 

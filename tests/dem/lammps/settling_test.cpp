@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <numeric>
 #include <stop_token>
 #include <vector>
 
