@@ -44,36 +44,12 @@ inline void expect_same_bits(const Reading& a, const Reading& b) {
   EXPECT_EQ(a.lateral_force, b.lateral_force);
 }
 
-/// Every form of the effect at amplitude 0 gives the base model.
-inline void expect_base_at_zero(const std::string& id, const OperatingCondition& at, std::optional<Bin> bin = {}) {
-  int forms = 0;
-  for (const EffectForm& form : effect_catalogue()) {
-    if (form.id != id) continue;
-    SCOPED_TRACE(form.form);
-    expect_same_bits(with({id, form.form, {{form.parameters[0].name, 0.0}}}, at, bin), base(at));
-    ++forms;
-  }
-  EXPECT_GE(forms, 2);
-}
-
 /// Every form at its defaults leaves this condition as it is.
 inline void expect_silent(const std::string& id, const OperatingCondition& at) {
   for (const EffectForm& form : effect_catalogue()) {
     if (form.id != id) continue;
     SCOPED_TRACE(form.form);
     expect_same_bits(with({id, form.form, {}}, at), base(at));
-  }
-}
-
-/// Every form at its defaults changes something in this condition.
-inline void expect_heard(const std::string& id, const OperatingCondition& at) {
-  const Reading b = base(at);
-  for (const EffectForm& form : effect_catalogue()) {
-    if (form.id != id) continue;
-    SCOPED_TRACE(form.form);
-    const Reading e = with({id, form.form, {}}, at);
-    EXPECT_TRUE(e.drawbar_pull != b.drawbar_pull || e.torque != b.torque || e.sinkage != b.sinkage ||
-                e.lateral_force != b.lateral_force);
   }
 }
 

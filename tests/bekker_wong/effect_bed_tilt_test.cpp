@@ -5,16 +5,6 @@
 namespace soilbin::bekker_wong::bed {
 namespace {
 
-TEST(BedTilt, ZeroAmplitudeIsTheBaseModel) {
-  OperatingCondition at = driven();
-  at.longitudinal_incline = 5 * degree, at.transverse_incline = -3 * degree, at.yaw = 20 * degree;
-  at.position = 2.5;
-  expect_base_at_zero("bed_tilt", at);
-  at.force_frame = ForceFrame::wheel;
-  expect_base_at_zero("bed_tilt", at);
-  expect_heard("bed_tilt", at);
-}
-
 // 2 deg uphill under 800 N: 800 sin(2 deg) = 27.92 N less pull, the same at every slip, twice as much at twice the
 // load; the other channels as they were.
 TEST(BedTilt, LeakAlongIsProportionalToLoadAndBlindToSlip) {

@@ -11,11 +11,6 @@ double resistance(const char* form, const OperatingCondition& at, const SoilValu
   return roll(soil, {}, at).drawbar_pull - roll(soil, effect, at).drawbar_pull;
 }
 
-TEST(Bulldozing, ZeroAmplitudeIsTheBaseModel) {
-  expect_base_at_zero("bulldozing", driven());
-  expect_heard("bulldozing", driven());
-}
-
 // phi = 30 deg: N_phi = 3; X = 30 deg, D1 = cot 30 + tan 60 = 2 sqrt 3, D2 = cot 30 + cot^2 30 tan 30 = 2 sqrt 3.
 // phi = 0: N_phi = 1, D1 = 2, D2 = 1, K_c = N_c = 1 + 3 pi/2, K_gamma = 8 + 1.
 TEST(Bulldozing, EarthPressuresInClosedForm) {

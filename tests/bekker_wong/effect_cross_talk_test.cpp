@@ -11,11 +11,6 @@ OperatingCondition yawed() {
   return at;
 }
 
-TEST(CrossTalk, ZeroAmplitudeIsTheBaseModel) {
-  expect_base_at_zero("cross_talk", yawed());
-  expect_heard("cross_talk", yawed());
-}
-
 TEST(CrossTalk, LeaksByArithmetic) {
   const Reading b = base(yawed());
   struct Case {

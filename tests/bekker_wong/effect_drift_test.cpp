@@ -10,11 +10,9 @@ OperatingCondition run(int n) {
   return at;
 }
 
-TEST(Drift, ZeroAmplitudeTheReferenceAndAnUnknownRunAreTheBaseModel) {
-  expect_base_at_zero("drift", run(17));
+TEST(Drift, IsSilentAtTheReferenceAndAtAnUnknownRun) {
   expect_silent("drift", run(1));  // the default run_ref
   expect_silent("drift", driven());
-  expect_heard("drift", run(17));
 }
 
 // Soil that settles stiffens: later runs sink less and pull more. Strength that grows takes more torque.

@@ -8,11 +8,6 @@ RolledWheel rolled(const EffectChoice& choice, const OperatingCondition& at) {
   return wheel_on(sand(), make_effects({choice})).roll(at);
 }
 
-TEST(ExitAngle, ZeroAmplitudeIsTheBaseModel) {
-  expect_base_at_zero("exit_angle", driven());
-  expect_heard("exit_angle", driven());
-}
-
 // Soil behind the axle carries load and pushes forward: the wheel rides higher and pulls more, at every load and slip.
 TEST(ExitAngle, ContactBehindTheAxleLiftsAndPulls) {
   for (const EffectForm& form : effect_catalogue()) {

@@ -4,12 +4,6 @@
 namespace soilbin::bekker_wong::bed {
 namespace {
 
-TEST(HardLayer, ZeroAmplitudeIsTheBaseModel) {
-  expect_base_at_zero("hard_layer", driven(2000));
-  expect_base_at_zero("hard_layer", driven(2000), Bin{.depth = 0.1, .width = 1.0});
-  expect_heard("hard_layer", driven(2000));
-}
-
 // The layer stiffens what lies deep: a heavy wheel loses a larger share of its sinkage than a light one, and gains more
 // pull for its load.
 TEST(HardLayer, HeavyWheelsNoticeMore) {

@@ -8,11 +8,6 @@ double torque_lost(const char* form, const OperatingCondition& at) {
   return 1 - with({"interface_limit", form, {{"a", 0.3}}}, at).torque / base(at).torque;
 }
 
-TEST(InterfaceLimit, ZeroAmplitudeIsTheBaseModel) {
-  expect_base_at_zero("interface_limit", driven(800, 0.6));
-  expect_heard("interface_limit", driven(800, 0.6));
-}
-
 // Less grip at working slip: less pull and less torque; shear carries less of the load, so the wheel sinks a little.
 TEST(InterfaceLimit, LosesPullAndTorque) {
   for (const char* form : {"cap", "reduced_strength", "series", "wall", "film"}) {

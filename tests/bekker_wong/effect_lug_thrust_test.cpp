@@ -20,11 +20,6 @@ double gain(const char* form, const OperatingCondition& at) {
   return with({"lug_thrust", form, {}}, at).drawbar_pull - base(at).drawbar_pull;
 }
 
-TEST(LugThrust, ZeroAmplitudeIsTheBaseModel) {
-  expect_base_at_zero("lug_thrust", driven());
-  expect_heard("lug_thrust", driven());  // on a wheel that declares no lugs
-}
-
 // Lugs grip more soil: more pull and more torque at working slip. More shear carries more load: no deeper sinkage.
 TEST(LugThrust, PullsMore) {
   for (const EffectForm& form : effect_catalogue()) {

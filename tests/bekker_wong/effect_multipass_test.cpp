@@ -11,11 +11,7 @@ OperatingCondition pass(int n, double slip = 0.2) {
   return at;
 }
 
-TEST(Multipass, ZeroAmplitudeAndFirstPassAreTheBaseModel) {
-  expect_base_at_zero("multipass", pass(3));
-  expect_silent("multipass", pass(1));
-  expect_heard("multipass", pass(2));
-}
+TEST(Multipass, IsSilentAtTheFirstPass) { expect_silent("multipass", pass(1)); }
 
 // Stiffer soil carries the load at a smaller theta_1: less sinkage and less soil to compact. At large slip the shear is
 // mobilised anyway, so that is a gain of pull; the shorter contact holds less cohesion, so less torque. The gain is

@@ -13,11 +13,6 @@ double torque_ratio(const char* form, const OperatingCondition& at) {
   return with({pressed_modulus, form, {}}, at).torque / base(at).torque;
 }
 
-TEST(PressureDependentShearModulus, ZeroAmplitudeIsTheBaseModel) {
-  expect_base_at_zero(pressed_modulus, driven());
-  expect_heard(pressed_modulus, driven());
-}
-
 // Where the shear test pressed with b p0, the declared K holds there: f(b) = 1.
 TEST(PressureDependentShearModulus, DeclaredModulusHoldsAtThePivot) {
   const double p0 = sand().pressure_modulus(width) * std::pow(0.15 * radius, sand().exponent);

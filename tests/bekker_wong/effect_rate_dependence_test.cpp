@@ -11,11 +11,6 @@ OperatingCondition at_speed(double v, double slip = 0.2) {
   return at;
 }
 
-TEST(RateDependence, ZeroAmplitudeIsTheBaseModel) {
-  expect_base_at_zero("rate_dependence", at_speed(0.7));
-  expect_heard("rate_dependence", at_speed(0.7));
-}
-
 // Pressure grows with the speed of penetration: the same load is carried at less depth and less soil is compacted. At
 // 60 % slip the shear is mobilised in the shorter contact too, so more pull is left.
 TEST(RateDependence, FastWheelsSinkLessWherePressureGrowsWithSpeed) {

@@ -4,11 +4,6 @@
 namespace soilbin::bekker_wong::bed {
 namespace {
 
-TEST(SensorOffset, ZeroAmplitudeIsTheBaseModel) {
-  expect_base_at_zero("sensor_offset", driven());
-  expect_heard("sensor_offset", driven());
-}
-
 TEST(SensorOffset, AddsToItsOwnChannelOnly) {
   struct Case {
     const char* form;

@@ -8,11 +8,6 @@ namespace {
 
 RollingWheel wheel(const EffectChoice& choice) { return wheel_on(sand(), make_effects({choice})); }
 
-TEST(ShearHump, ZeroAmplitudeIsTheBaseModel) {
-  expect_base_at_zero("shear_hump", driven());
-  expect_heard("shear_hump", driven(800, 0.6));
-}
-
 // The published curve at every node (a = 1): K_r {1 + [1/(K_r (1 - 1/e)) - 1] exp(1 - j/K_w)} (1 - exp(-j/K_w)),
 // 1 at j = K_w = 2 K = 40 mm, K_r far beyond.
 TEST(ShearHump, WongsCurve) {

@@ -24,11 +24,6 @@ RolledWheel rolled_on(const EffectChoice& choice, const OperatingCondition& at, 
   return RollingWheel(t, sand(), make_effects({choice})).roll(at);
 }
 
-TEST(TireFlexibility, ZeroAmplitudeIsTheBaseModel) {
-  expect_base_at_zero("tire_flexibility", driven());
-  expect_heard("tire_flexibility", driven());  // on a tire that declares no pressure
-}
-
 // A longer contact carries the load at less depth: less sinkage, less compaction resistance, more pull.
 TEST(TireFlexibility, LongerShallowerContact) {
   for (const char* form : carcass_forms) {

@@ -135,8 +135,7 @@ Vector combine(double p, const Vector& a, double q, const Vector& b) {
 }
 
 /// One-sided derivative at 0 from steps h and h/2, Richardson: error of order h^2.
-template <class F>
-Vector right_derivative(const F& f, double h) {
+Vector right_derivative(const auto& f, double h) {
   const Vector zero = f(0.0);
   const Vector full = combine(1 / h, f(h), -1 / h, zero), half = combine(2 / h, f(h / 2), -2 / h, zero);
   return combine(2, half, -1, full);

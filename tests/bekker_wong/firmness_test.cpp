@@ -144,8 +144,7 @@ struct Pair {
 
 /// Calls back with every pair of an effect and a form of the flexible tire, or the rigid one, that has a balance in
 /// this setting and finds the soil firmer or softer.
-template <class Check>
-void for_each_pair(const Setting& s, const OperatingCondition& at, const Check& check) {
+void for_each_pair(const Setting& s, const OperatingCondition& at, const auto& check) {
   for (const char* carcass : {"", "flat_section", "carcass_spring", "substitute_circle"}) {
     std::vector<EffectChoice> tire;
     if (*carcass != '\0') tire.push_back({"tire_flexibility", carcass, {}});

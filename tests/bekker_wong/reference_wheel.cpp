@@ -78,8 +78,7 @@ Wheel::Point Wheel::stress(Real theta, Real since_entry, Real since_exit, Real t
   return p;
 }
 
-template <class Integrand>
-Real Wheel::integrate(Real theta_1, Real rel_tol, const Integrand& integrand) const {
+Real Wheel::integrate(Real theta_1, Real rel_tol, const auto& integrand) const {
   // Boost 1.83 throws where the integrand grows at an end that rounding has cut off, however little that end weighs.
   namespace policies = boost::math::policies;
   using Quiet = policies::policy<policies::evaluation_error<policies::ignore_error>>;

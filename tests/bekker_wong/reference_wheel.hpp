@@ -43,8 +43,7 @@ class Wheel {
 
  private:
   struct Point;  // stresses at one angle
-  template <class Integrand>
-  Real integrate(Real theta_1, Real rel_tol, const Integrand& integrand) const;
+  Real integrate(Real theta_1, Real rel_tol, const auto& integrand) const;
   Point stress(Real theta, Real since_entry, Real since_exit, Real theta_1) const;
   Real displacement_x(Real since_entry, Real theta_1) const;
   Real reversal(Real theta_1) const;

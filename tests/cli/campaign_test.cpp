@@ -76,20 +76,6 @@ TEST(Predict, SavesEachRunAsATableAndDrawsIt) {
   EXPECT_THAT(text_of(csv), HasSubstr(",,the wheel sinks 68 % of its radius")) << "a remark of its row";
 }
 
-TEST(Predict, TheErrorTableIsThatOfTheRows) {
-  const nlohmann::json answer = soilbin("predict cmu-smooth --json").json();
-  double squares = 0.0, sum = 0.0;
-  int count = 0;
-  for (const auto& row : answer["rows"])
-    if (row.contains("residual")) {
-      const double rest = row["residual"]["sinkage"];
-      squares += rest * rest, sum += rest, ++count;
-    }
-  EXPECT_EQ(answer["error"]["sinkage"]["runs"], count);
-  EXPECT_NEAR(answer["error"]["sinkage"]["rmse"].get<double>(), std::sqrt(squares / count), 1e-12);
-  EXPECT_NEAR(answer["error"]["sinkage"]["bias"].get<double>(), sum / count, 1e-12);
-}
-
 TEST(Predict, WhatCheckDoubtsIsToldBeforeTheAnswer) {
   const Scratch scratch;
   scratch.write("campaign.yaml", campaign);
@@ -131,16 +117,6 @@ study:
   const nlohmann::json declared = soilbin(predict).json()["rows"];
   const nlohmann::json fitted = soilbin(predict + " --model '" + model.string() + "'").json()["rows"];
   EXPECT_GT(fitted[1]["sinkage"].get<double>(), 1.2 * declared[1]["sinkage"].get<double>());
-}
-
-TEST(Predict, TextShowsMeasuredPredictedAndTheErrorTable) {
-  const Scratch scratch;
-  const std::string plot = (scratch / "p.svg").string();
-  const Outcome r = soilbin("predict cmu-smooth --plot '" + plot + "'");
-  EXPECT_EQ(r.status, 0) << r.err;
-  for (const char* word : {"predicted", "less measured", "rms error", "lateral force", "yaw"})
-    EXPECT_THAT(r.out, HasSubstr(word));
-  EXPECT_THAT(text_of(plot), HasSubstr("<circle"));
 }
 
 // To first order a prediction's standard error is as large as that of the one uncertain value: twice K's, twice the
@@ -233,19 +209,6 @@ TEST(Check, AStoreOfAFailureMapIsRead) {
   const Outcome r = soilbin("check '" SOILBIN_SOURCE_DIR "/cases/failure_maps/paper-longitudinal.json'");
   EXPECT_EQ(r.status, 0) << r.err;
   EXPECT_THAT(r.out, testing::MatchesRegex("valid: store of [0-9]+ experiments\nno warnings\n"));
-}
-
-TEST(Check, ATireIsJudgedByItsMeasures) {
-  const Scratch scratch;
-  const fs::path file = scratch.write("tire.yaml", "format: soilbin-tire/1\nradius: 25 m\nwidth: 100 mm\n");
-  EXPECT_THAT(soilbin("check '" + file.string() + "'").out, HasSubstr("warning: the wheel's radius"));
-}
-
-TEST(Check, ARefusedFileIsStatusTwo) {
-  const Scratch scratch;
-  const fs::path file = scratch.write("case.yaml", "format: soilbin-case/1\nname: x\ntyre: rover-wheel\n");
-  EXPECT_THAT(soilbin("check '" + file.string() + "'"),
-              Refuses(AllOf(HasSubstr("case.yaml:3:1"), HasSubstr("did you mean 'tire'?"))));
 }
 
 }  // namespace

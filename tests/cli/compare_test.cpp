@@ -185,19 +185,6 @@ TEST(Compare, RefusesACaseThatAsksForADriveAlone) {
   EXPECT_THAT(soilbin("compare drive-in-grains"), Refuses(HasSubstr("the case has no study, it asks for a drive")));
 }
 
-// An effect that the study asks for already stays one side; one more form of it is one side more.
-TEST(Compare, TakesEverySideOnce) {
-  const Scratch scratch;
-  const std::string command = "compare '" + scratch.write("case.yaml", cmu).string() +
-                              "' --no-loop --json --effect slip_sinkage --effect slip_sinkage:reece "
-                              "--effect slip_sinkage:reece";
-  const Outcome r = soilbin(command);
-  ASSERT_EQ(r.status, 0) << r.err;
-  EXPECT_EQ(r.json()["sides"].size(), 3U);
-  EXPECT_THAT(r.err, HasSubstr("--effect slip_sinkage: is compared already"));
-  EXPECT_THAT(r.err, HasSubstr("the wheel settles to")) << "deeper than the stresses are meant for";
-}
-
 TEST(Compare, NamesWhatIsWrong) {
   EXPECT_THAT(soilbin("compare paper-straight --model den").err, HasSubstr("did you mean 'dem'?"));
   EXPECT_EQ(soilbin("compare paper-straight --model den").status, 2);

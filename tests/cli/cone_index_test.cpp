@@ -65,18 +65,6 @@ TEST(ConeIndexCommand, AnswersOneConditionWithoutAnglesOfContact) {
   EXPECT_THAT(run.out, AllOf(HasSubstr("efficiency"), Not(HasSubstr("nan")), Not(HasSubstr("entry"))));
 }
 
-TEST(ConeIndexCommand, RefusesACrossSlopeWithItsReason) {
-  const Outcome run = run_on(coned_study(loam, "cone_index", ", transverse_incline: 5 deg"));
-  EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.err + run.out, HasSubstr("neither yaw nor cross slopes"));
-}
-
-TEST(ConeIndexCommand, NeedsAValueOfAConeInTheSoil) {
-  const Outcome run = run_on(coned_study("dry-sand", "cone_index"));
-  EXPECT_EQ(run.status, 2);
-  EXPECT_THAT(run.err, HasSubstr("'cone_index_gradient'; 'dry-sand' has neither"));
-}
-
 TEST(ConeIndexCommand, TakesOneOfTheTwoValues) {
   EXPECT_THAT(run_on(coned_study("{cone_index: 300 kPa, cone_index_gradient: 4 MPa/m}", "cone_index")),
               Refuses(HasSubstr("give one of them")));

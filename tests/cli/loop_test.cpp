@@ -64,18 +64,6 @@ study:
   EXPECT_THAT(twice.err, HasSubstr("effect 'learned' is listed twice"));
 }
 
-TEST(LoopCommand, AnswersInTheContractsForm) {
-  const Outcome outcome = soilbin("loop made-lesson --json");
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const nlohmann::json answer = outcome.json();
-  EXPECT_EQ(answer.at("format"), "soilbin-loop/1");
-  EXPECT_EQ(answer.at("campaign"), "made-lesson");
-  EXPECT_EQ(answer.at("verdict"), "effect_found");
-  EXPECT_EQ(answer.at("effects").at(0).at("id"), "multipass");
-  const nlohmann::json& overall = answer.at("error").at("overall");
-  EXPECT_LT(overall.at("after").get<double>(), overall.at("before").get<double>());
-}
-
 // Rows that repeat each other, in a campaign too small to fit: told beside the verdict, in JSON and on the page.
 TEST(LoopCommand, TellsItsDoubtsInJsonAndOnThePage) {
   const Scratch scratch;
@@ -102,22 +90,6 @@ data: runs.csv
   EXPECT_EQ(outcome.json().at("verdict"), "not_enough_data");
   EXPECT_THAT(outcome.json().at("warning_kinds").dump(), HasSubstr("repeated_row"));
   EXPECT_THAT(text_of(page), AllOf(HasSubstr("Warnings"), HasSubstr("counted twice")));
-}
-
-// Torques ten times too large: the answer opens with that, in text, in JSON and on the page.
-TEST(SlowLoopCommand, OpensWithAColumnThatLooksMistaken) {
-  const Scratch scratch;
-  const std::string made = SOILBIN_SOURCE_DIR "/cases/measured/made-lesson/", page = (scratch / "loop.html").string();
-  scratch.write("c/campaign.yaml",
-                text_of(made + "campaign.yaml") + "columns: {torque_Nm: {quantity: torque, unit: kN m}}\n");
-  scratch.write("c/runs.csv", text_of(made + "runs.csv"));
-  const std::string folder = "loop '" + (scratch / "c").string() + "' --folds 2 ";
-  const Outcome said = soilbin(folder + "--report '" + page + "'");
-  ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_LT(said.out.find("Check first. The data"), said.out.find("What is missing."));
-  EXPECT_THAT(said.out, HasSubstr("column 'torque_Nm' looks 1000 times too large"));
-  EXPECT_THAT(text_of(page), HasSubstr("<b>Check first.</b> The data look wrong"));
-  EXPECT_THAT(soilbin(folder + "--json").json().at("column_doubts").at(0).get<std::string>(), HasSubstr("'torque_Nm'"));
 }
 
 TEST(LoopCommand, RefusesALimitThatIsNone) {

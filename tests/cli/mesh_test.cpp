@@ -16,8 +16,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 /// A cylinder about an axis, as text STL: corners of its triangles in the axes' order that `place` gives.
-template <class Place>
-std::string cylinder_stl(double radius, double width, const Place& place) {
+std::string cylinder_stl(double radius, double width, const auto& place) {
   constexpr int sides = 48;
   std::ostringstream text;
   text.precision(17);

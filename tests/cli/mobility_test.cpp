@@ -27,12 +27,6 @@ TEST(Mobility, MeetsThePublishedHmmwv) {
   EXPECT_FALSE(answer.at("passages")[1].at("go").get<bool>());
 }
 
-TEST(Mobility, SaysGoOrNoGo) {
-  const Outcome run = soilbin(mobility_of_hmmwv + " --rating-cone-index '300+-30 kPa'");
-  EXPECT_THAT(run.out, AllOf(HasSubstr("1 pass: go"), HasSubstr("50 passes: no go"), HasSubstr("3.74")));
-  EXPECT_THAT(run.err, HasSubstr("no mean maximum pressure"));
-}
-
 TEST(Mobility, TakesAVehicleFileASoilAndATire) {
   const Scratch scratch;
   const std::string file =

@@ -115,23 +115,21 @@ study:
   EXPECT_THAT(labels, ElementsAre("bekker_wong + slip_sinkage:lyasko + exit_angle", "bekker_wong + slip_sinkage:ding"));
 }
 
-/// Coarse soft grains.
-std::string pebbles() { return text_of(SOILBIN_SOURCE_DIR "/tests/fixtures/pebbles.yaml"); }
+/// A case of a light wheel on pebbles, coarse soft grains, in `folder`, for a study of one condition or several.
+fs::path pebble_case(const Scratch& folder, const std::string& slip) {
+  folder.write("pebbles.yaml", text_of(SOILBIN_SOURCE_DIR "/tests/fixtures/pebbles.yaml"));
+  return folder.write("case.yaml",
+                      "format: soilbin-case/1\nname: pebbles\ntire: {radius: 150 mm, width: 100 mm}\n"
+                      "soil: pebbles.yaml\nstudy:\n  models: [dem]\n  conditions: {load: 60 N, slip: " +
+                          slip + ", speed: 0.6 m/s}\n");
+}
 
 // Minutes of grains in seconds: a light wheel on a shallow bed of pebbles. It drives, carries its load at some depth
 // between the tops and the floor, and a bed that is there already is taken again: same numbers, kept for ParaView or
 // not.
 TEST(SlowRun, DrivesAWheelOverGrains) {
   const Scratch scratch;
-  scratch.write("pebbles.yaml", pebbles());
-  const fs::path file = scratch.write("case.yaml", R"(format: soilbin-case/1
-name: pebbles
-tire: {radius: 150 mm, width: 100 mm}
-soil: pebbles.yaml
-study:
-  models: [dem]
-  conditions: {load: 60 N, slip: 20 %, speed: 0.6 m/s}
-)");
+  const fs::path file = pebble_case(scratch, "20 %");
   const std::string run = "run '" + file.string() + "' --bed-length 1.2m --bed-width 0.25m --bed-depth 0.09m --json";
   const fs::path beds = scratch / "beds";
   setenv("SOILBIN_BEDS", beds.c_str(), 1);
@@ -156,15 +154,7 @@ study:
 // What is recorded is shown again without running, and a file for another question is refused.
 TEST(SlowRun, KeepsItsRunsInARecord) {
   const Scratch scratch;
-  scratch.write("pebbles.yaml", pebbles());
-  const fs::path file = scratch.write("case.yaml", R"(format: soilbin-case/1
-name: pebbles
-tire: {radius: 150 mm, width: 100 mm}
-soil: pebbles.yaml
-study:
-  models: [dem]
-  conditions: {load: 60 N, slip: [0 %, 20 %], speed: 0.6 m/s}
-)");
+  const fs::path file = pebble_case(scratch, "[0 %, 20 %]");
   const std::string bed = " --bed-length 1.2m --bed-width 0.25m --bed-depth 0.09m --threads 1",
                     run = "run '" + file.string() + "' --json",
                     record = " --record '" + (scratch / "r.json").string() + "'",
@@ -190,15 +180,6 @@ study:
   EXPECT_EQ(tested.status, 0) << tested.err;
   EXPECT_EQ(tested.json()["rows"], all.json()["rows"]);
   EXPECT_THAT(tested.err, testing::Not(untested));
-}
-
-/// A case of a light wheel on pebbles in `folder`, for a study of one condition or several.
-fs::path pebble_case(const Scratch& folder, const std::string& slip) {
-  folder.write("pebbles.yaml", pebbles());
-  return folder.write("case.yaml",
-                      "format: soilbin-case/1\nname: pebbles\ntire: {radius: 150 mm, width: 100 mm}\n"
-                      "soil: pebbles.yaml\nstudy:\n  models: [dem]\n  conditions: {load: 60 N, slip: " +
-                          slip + ", speed: 0.6 m/s}\n");
 }
 
 // The run at the soil's grains and the one with coarser ones give the error of resolution of this very answer; the

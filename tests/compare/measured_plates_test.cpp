@@ -315,8 +315,7 @@ struct PlateReadingAt {
 
 /// Tests on n = 1, k_c = 10 kN/m^2, k_phi = 1000 kN/m^3: plates of 100 and 150 mm in turn, every 2 mm to 16 mm,
 /// pressures to four digits; `change` may alter the readings of a test, numbered from 1.
-template <class Change>
-std::string dirty_plates(int tests, const Change& change) {
+std::string dirty_plates(int tests, const auto& change) {
   std::string csv = "test,plate_diameter_mm,sinkage_mm,pressure_kPa\n";
   for (int test = 1; test <= tests; ++test) {
     const double diameter = test % 2 == 1 ? 100 : 150;

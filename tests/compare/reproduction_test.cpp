@@ -122,8 +122,7 @@ const Finding& finding(const Findings& all, const std::string& id) {
 }
 
 /// Answers at two loads and slips of 0 to 60 %: truth(slip) plus noise of a known error.
-template <class Truth>
-std::vector<Answer> made_answers(const Truth& truth, double error, std::uint64_t seed) {
+std::vector<Answer> made_answers(const auto& truth, double error, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal(0, 1);
   std::vector<Answer> answers;
@@ -181,8 +180,7 @@ TEST(Findings, SayWhichConditionsAreMissing) {
 }
 
 /// How often a finding is called shown on answers that are a truth plus noise.
-template <class Truth>
-double share_shown(const std::string& id, const Truth& truth, double error, int trials) {
+double share_shown(const std::string& id, const auto& truth, double error, int trials) {
   int shown = 0;
   for (int k = 0; k < trials; ++k)
     shown += verdict(id, made_answers(truth, error, static_cast<std::uint64_t>(k) + 1)) == FindingVerdict::shown;

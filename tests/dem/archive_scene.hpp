@@ -114,8 +114,7 @@ class Bits {
   void add(const T&... all) {
     (one(all), ...);
   }
-  template <class Rows>
-  void add_all(const Rows& rows) {
+  void add_all(const auto& rows) {
     for (const auto& row : rows) one(row);
     one(rows.size());
   }

@@ -46,8 +46,7 @@ double mass(const Simulation& simulation) {
 }
 
 /// Until the mean grain is slower than it gets by falling a thousandth of `radius`, or for `longest` seconds.
-template <class Each>
-void settle(Simulation& simulation, double radius, double longest, const Each& each) {
+void settle(Simulation& simulation, double radius, double longest, const auto& each) {
   const double part = 0.02;
   for (double t = 0; t < longest; t += part) {
     simulation.run(static_cast<std::int64_t>(part / simulation.setup().numerics.dt));

@@ -323,8 +323,7 @@ TEST(SlowMovingPatch, ARunOnClumpsThatIsStoppedAgainAndAgainTellsTheSame) {
 }
 
 /// Mean over packings of a channel, and its error from their scatter.
-template <class Read>
-Estimate over(const std::vector<WheelRun>& runs, const Read& read) {
+Estimate over(const std::vector<WheelRun>& runs, const auto& read) {
   double sum = 0, squares = 0;
   for (const WheelRun& run : runs) sum += read(run), squares += read(run) * read(run);
   const double n = static_cast<double>(runs.size()), mean = sum / n;
@@ -445,8 +444,7 @@ Scenario small_scenario() {
   return scenario;
 }
 
-template <class Work>
-void expect_refused(const char* why, const Work& work) {
+void expect_refused(const char* why, const auto& work) {
   EXPECT_THAT(soilbin::test::refusal([&] { work(); }), HasSubstr(why));
 }
 

@@ -83,8 +83,7 @@ std::string bits_of(WheelRun run) {
 }
 
 /// Stops the work at each so many words that it says, until it is done; gives what it told and how often it stopped.
-template <class Work>
-std::pair<std::string, int> stopped_again_and_again(const Work& work, int words) {
+std::pair<std::string, int> stopped_again_and_again(const auto& work, int words) {
   int stops = 0;
   while (true) {
     std::stop_source source;

@@ -42,8 +42,7 @@ std::uint64_t current = 0;  // number of the input, for the message of a failure
 }
 
 /// Runs a reader; what it reads must survive being written and read again.
-template <class Read>
-void must_answer(const char* reader, const Read& read) {
+void must_answer(const char* reader, const auto& read) {
   constexpr std::chrono::seconds limit(5);  // generous: sanitizers are slow
   const auto begin = std::chrono::steady_clock::now();
   try {

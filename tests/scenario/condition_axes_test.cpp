@@ -28,8 +28,7 @@ std::string refused_conditions(const std::string& text) {
   return refusal([&] { conditions(text); });
 }
 
-template <class Member>
-auto column(const std::vector<OperatingCondition>& all, Member member) {
+auto column(const std::vector<OperatingCondition>& all, auto member) {
   std::vector<std::decay_t<decltype(all.front().*member)>> values;
   for (const OperatingCondition& at : all) values.push_back(at.*member);
   return values;
