@@ -53,8 +53,7 @@ int all_cores();
 CLI::Validator whole_number(long long lower, long long upper = std::numeric_limits<long long>::max());
 
 /// A flag that takes a value, or an argument without a name; `type` and `meaning` as the help has them.
-template <class T>
-CLI::Option* add_value(CLI::App& command, const std::string& flag, T& value, const std::string& type,
+CLI::Option* add_value(CLI::App& command, const std::string& flag, auto& value, const std::string& type,
                        const std::string& meaning) {
   return command.add_option(flag, value, meaning)->type_name(type);
 }

@@ -92,8 +92,7 @@ compare::Watch shown_runs(dem::DemSettings& settings) {
 }
 
 /// Calls `work`; what an interrupted one has recorded stays, and the command says how to go on.
-template <class Work>
-auto recording(const RunOptions& options, const Work& work) {
+auto recording(const RunOptions& options, const auto& work) {
   try {
     return work();
   } catch (const Interrupted&) {

@@ -47,8 +47,7 @@ struct Vehicle {
 
 inline constexpr const char* vehicle_format = "soilbin-vehicle/1";
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<Vehicle>) {
+void describe(auto& v, std::type_identity<Vehicle>) {
   v.text("name", &Vehicle::name, Need::optional, "what to call the vehicle");
   v.text("source", &Vehicle::source, Need::optional, "where it is described");
   v.number("weight", &Vehicle::weight, Measure{"kN", above_zero}, Need::required, "of the vehicle, loaded");

@@ -75,8 +75,7 @@ struct Case {
   std::set<std::string> on_command_line{};
 };
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<Case>) {
+void describe(auto& v, std::type_identity<Case>) {
   v.text("name", &Case::name, Need::required, "what to call the case");
   v.text("description", &Case::description, Need::optional, "what is asked, and why");
   v.text("source", &Case::source, Need::optional, "where the question comes from");

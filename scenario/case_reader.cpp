@@ -45,8 +45,8 @@ void check_soil_for(const ModelChoice& choice, const Soil& soil, const YamlNode&
 }
 
 /// The effects of a model or a drive, and how they and the soil err where a fit found both.
-template <class T>
-void read_effects_and_errors(const YamlNode& node, const EffectVocabulary& effects, const Reading& reading, T& into) {
+void read_effects_and_errors(const YamlNode& node, const EffectVocabulary& effects, const Reading& reading,
+                             auto& into) {
   if (const YamlNode* list = value_of(node, "effects", Need::optional, "list of effects; [] for none", reading))
     into.effects = read_effects(*list, effects, reading);
   if (const YamlNode* list = value_of(node, "errors", Need::optional, "how fitted parameters err together", reading))

@@ -42,8 +42,7 @@ void write_conditions(const Study& study, YamlLines& lines) {
   lines.close();
 }
 
-template <class T>
-std::string write_document(const char* format, const T& value) {
+std::string write_document(const char* format, const auto& value) {
   YamlLines lines;
   lines.value("format", format);
   Writing writing{&lines, std::nullopt, nullptr, ""};

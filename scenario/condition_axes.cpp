@@ -106,8 +106,7 @@ std::vector<double> read_numbers(const YamlNode& node, const Measure& measure, c
 }
 
 /// One value, or each of a list.
-template <class Read>
-void each(const YamlNode& node, const Read& read) {
+void each(const YamlNode& node, const auto& read) {
   if (!node.is_sequence()) return read(node);
   for (const YamlNode& item : node.items) read(item);
 }
@@ -158,8 +157,7 @@ class AxisReader {
   }
 
  private:
-  template <class Set>
-  void numbers(const char* key, const Measure& measure, Need need, const char* meaning, Set set) {
+  void numbers(const char* key, const Measure& measure, Need need, const char* meaning, auto set) {
     Axis* axis = begin(key, need, meaning);
     if (axis == nullptr) return;
     for (const double x : read_numbers(*axis->node, measure, reading_))

@@ -120,8 +120,7 @@ inline constexpr Range yaws{.lower = -right_angle, .upper = right_angle};
 inline constexpr Range lug_angles{.lower = 0.0, .upper = 1.2};  ///< [rad]: 68.75 deg
 inline constexpr Range fractions{.lower = 0.0, .upper = 1.0};
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<Lugs>) {
+void describe(auto& v, std::type_identity<Lugs>) {
   v.number("height", &Lugs::height, Measure{"mm", zero_or_more}, Need::required,
            "from the tread base outward; 0 mm: smooth");
   v.integer("count", &Lugs::count, 1, Need::optional, "number around the circumference; staggered: on each side");
@@ -131,8 +130,7 @@ void describe(Visitor& v, std::type_identity<Lugs>) {
            "between a bar and the axle; absent: 0.5 rad, and 0 of straight bars");
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<TireDeflection>) {
+void describe(auto& v, std::type_identity<TireDeflection>) {
   using D = TireDeflection;
   v.number("load", &D::load, Measure{"kN", above_zero}, Need::required, "on the tire, on firm flat ground");
   v.number("pressure", &D::pressure, Measure{"kPa", zero_or_more}, Need::required, "of inflation");
@@ -140,8 +138,7 @@ void describe(Visitor& v, std::type_identity<TireDeflection>) {
            "by how much the axle comes nearer to the ground");
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<DeflectionTable>) {
+void describe(auto& v, std::type_identity<DeflectionTable>) {
   v.text("source", &DeflectionTable::source, Need::optional, "where the table comes from");
   v.list("rows", &DeflectionTable::rows, Need::required, "of one load, pressure and deflection each");
 }
@@ -158,8 +155,7 @@ inline constexpr std::vector<TireDeflection> DeflectionTable::*rows_in_csv<Defle
 
 std::string contradiction(const Tire& tire);
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<Tire>) {
+void describe(auto& v, std::type_identity<Tire>) {
   v.text("name", &Tire::name, Need::optional, "what to call the wheel");
   v.text("source", &Tire::source, Need::optional, "where the wheel as a whole is described");
   v.number("radius", &Tire::radius, Measure{"mm", above_zero}, Need::required,
@@ -179,8 +175,7 @@ void describe(Visitor& v, std::type_identity<Tire>) {
            "how its plies run; read by the model cone_index alone");
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<SemiEmpiricalSoil>) {
+void describe(auto& v, std::type_identity<SemiEmpiricalSoil>) {
   using S = SemiEmpiricalSoil;
   for (const SoilParameter& p : soil_parameters) {
     const bool usual = p.value == &S::stress_angle_c1 || p.value == &S::stress_angle_c2;
@@ -205,8 +200,7 @@ inline void fill_in(SemiEmpiricalSoil& soil, const std::function<bool(const char
   usual("stress_angle_c2", &SemiEmpiricalSoil::stress_angle_c2, usual_stress_angle_c2);
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<ContactPair>) {
+void describe(auto& v, std::type_identity<ContactPair>) {
   v.number("restitution", &ContactPair::restitution, Measure{"-", fractions}, Need::required,
            "speed after a collision over the speed before");
   v.number("sliding_friction", &ContactPair::sliding_friction, Measure{"-", zero_or_more}, Need::required,
@@ -223,16 +217,14 @@ void describe(Visitor& v, std::type_identity<ContactPair>) {
            "w of cohesion_law jkr, which pulls two grains apart with (3/2) pi w R* at most; 0: none");
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<GrainFraction>) {
+void describe(auto& v, std::type_identity<GrainFraction>) {
   v.number("radius", &GrainFraction::radius, Measure{"mm", above_zero}, Need::required,
            "of its grains; of a sieve fraction half the geometric mean of its two openings");
   v.number("share", &GrainFraction::share, Measure{"%", {.lower = 0.0, .upper = 1.0, .lower_open = true}},
            Need::required, "of the mass of all grains");
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<GranularSoil>) {
+void describe(auto& v, std::type_identity<GranularSoil>) {
   using G = GranularSoil;
   v.number("radius_min", &G::radius_min, Measure{"mm", above_zero}, Need::optional,
            "smallest grain radius; needed where there are no sizes");
@@ -278,16 +270,14 @@ inline std::string contradiction(const GranularSoil& soil) {
   return "";
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<ResistiveForceSoil>) {
+void describe(auto& v, std::type_identity<ResistiveForceSoil>) {
   v.number("xi_n", &ResistiveForceSoil::xi_n, Measure{"kN/m^3", above_zero}, Need::required,
            "stress per depth, over the response of resistive force theory; a level plate bears 0.875 of it");
   v.number("surface_friction", &ResistiveForceSoil::surface_friction, Measure{"-", zero_or_more}, Need::required,
            "coefficient of friction between soil and wheel");
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<Soil>) {
+void describe(auto& v, std::type_identity<Soil>) {
   v.text("name", &Soil::name, Need::optional, "what to call the soil");
   v.text("source", &Soil::source, Need::optional, "where the soil as a whole is described");
   v.number("moisture", &Soil::moisture, Measure{"%", fractions}, Need::optional, "water content by mass");
@@ -321,14 +311,12 @@ inline std::string contradiction(const Soil& soil) {
   return "";
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<Bin>) {
+void describe(auto& v, std::type_identity<Bin>) {
   v.number("depth", &Bin::depth, Measure{"m", above_zero}, Need::required, "depth of the soil over the bin's floor");
   v.number("width", &Bin::width, Measure{"m", above_zero}, Need::required, "inner width");
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<OperatingCondition>) {
+void describe(auto& v, std::type_identity<OperatingCondition>) {
   using C = OperatingCondition;
   v.number("load", &C::load, Measure{"N", above_zero}, Need::required,
            "vertical load on the axle, weight of the wheel included");
@@ -368,63 +356,31 @@ namespace description_detail {
 
 struct KeyList {
   std::vector<std::string> keys;
-  template <class... Rest>
-  void text(const char* key, const Rest&...) {
-    keys.emplace_back(key);
-  }
-  template <class... Rest>
-  void number(const char* key, const Rest&...) {
-    keys.emplace_back(key);
-  }
-  template <class... Rest>
-  void exponent(const char* key, const Rest&...) {
-    keys.emplace_back(key);
-  }
-  template <class... Rest>
-  void assumed_sd(const char* key, const Rest&...) {
-    keys.emplace_back(key);
-  }
-  template <class... Rest>
-  void integer(const char* key, const Rest&...) {
-    keys.emplace_back(key);
-  }
-  template <class... Rest>
-  void choice(const char* key, const Rest&...) {
-    keys.emplace_back(key);
-  }
-  template <class... Rest>
-  void group(const char* key, const Rest&...) {
-    keys.emplace_back(key);
-  }
-  template <class... Rest>
-  void list(const char* key, const Rest&...) {
-    keys.emplace_back(key);
-  }
-  template <class... Rest>
-  void part(const char* key, const Rest&...) {
-    keys.emplace_back(key);
-  }
+  void text(const char* key, const auto&...) { keys.emplace_back(key); }
+  void number(const char* key, const auto&...) { keys.emplace_back(key); }
+  void exponent(const char* key, const auto&...) { keys.emplace_back(key); }
+  void assumed_sd(const char* key, const auto&...) { keys.emplace_back(key); }
+  void integer(const char* key, const auto&...) { keys.emplace_back(key); }
+  void choice(const char* key, const auto&...) { keys.emplace_back(key); }
+  void group(const char* key, const auto&...) { keys.emplace_back(key); }
+  void list(const char* key, const auto&...) { keys.emplace_back(key); }
+  void part(const char* key, const auto&...) { keys.emplace_back(key); }
 };
 
 template <class On>
 struct EachNumberOrChoice {
   const On& on;
-  template <class M>
-  void number(const char* key, M member, const Measure& measure, Need, const char* meaning) const {
+  void number(const char* key, auto member, const Measure& measure, Need, const char* meaning) const {
     on(key, member, measure, meaning);
   }
-  template <class M>
-  void integer(const char* key, M member, int lowest, Need, const char* meaning) const {
+  void integer(const char* key, auto member, int lowest, Need, const char* meaning) const {
     on(key, member, lowest, meaning);
   }
-  template <class M>
-  void choice(const char* key, M member, Need, const char* meaning) const {
+  void choice(const char* key, auto member, Need, const char* meaning) const {
     on(key, member, std::monostate(), meaning);
   }
-  template <class... Rest>
-  void text(const Rest&...) const {}
-  template <class... Rest>
-  void group(const Rest&...) const {}
+  void text(const auto&...) const {}
+  void group(const auto&...) const {}
 };
 
 }  // namespace description_detail

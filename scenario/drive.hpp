@@ -65,8 +65,7 @@ inline double inertia_of(const Drive& drive, double radius, double gravity) {
   return drive.inertia.value_or(spinning_share * mass_of(drive, gravity) * radius * radius);
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<Controller>) {
+void describe(auto& v, std::type_identity<Controller>) {
   using C = Controller;
   v.number("rim_speed", &C::rim_speed, Measure{"m/s", above_zero}, Need::optional, "r w that the motor holds");
   v.number("torque", &C::torque, Measure{"N m", above_zero}, Need::optional, "that the motor gives");
@@ -86,8 +85,7 @@ inline std::string contradiction(const Controller& c) {
   return "";
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<Waypoint>) {
+void describe(auto& v, std::type_identity<Waypoint>) {
   using W = Waypoint;
   v.number("at", &W::at, Measure{"m", zero_or_more}, Need::required, "distance along the ground from the start");
   v.number("longitudinal_incline", &W::longitudinal_incline, Measure{"deg", inclines}, Need::optional,
@@ -101,8 +99,7 @@ void describe(Visitor& v, std::type_identity<Waypoint>) {
   v.part("soil", &W::soil, Need::optional, "from here on: a mapping, a name of the library, or a path");
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<Drive>) {
+void describe(auto& v, std::type_identity<Drive>) {
   using D = Drive;
   v.number("load", &D::load, Measure{"N", above_zero}, Need::required,
            "vertical load on the axle, weight of the wheel included");

@@ -38,15 +38,13 @@ double top_spin(const GearedMotor& motor);
 /// Largest spin of the wheels, at most `below`, at which it gives a torque; none where it gives so much at no spin.
 std::optional<double> fastest_spin(const GearedMotor& motor, double torque, double below);
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<TorquePoint>) {
+void describe(auto& v, std::type_identity<TorquePoint>) {
   v.number("speed", &TorquePoint::speed, Measure{"rpm", zero_or_more}, Need::required, "of the motor");
   v.number("torque", &TorquePoint::torque, Measure{"N m", zero_or_more}, Need::required,
            "that the motor gives at most at this speed");
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<GearedMotor>) {
+void describe(auto& v, std::type_identity<GearedMotor>) {
   using M = GearedMotor;
   v.list("torque_curve", &M::torque_curve, Need::required,
          "points of largest torque, rising in speed; linear between them; the last is the fastest that it turns");

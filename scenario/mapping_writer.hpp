@@ -150,8 +150,7 @@ class WriteFrom {
   }
 
  private:
-  template <class U>
-  void descend(const char* key, const U& inner) {
+  void descend(const char* key, const auto& inner) {
     Writing below = writing_;
     below.path = writing_.path + key + ".";
     writing_.lines->open(key);
@@ -175,8 +174,7 @@ void write_members(const T& from, Writing& writing) {
 }
 
 /// Writes a struct below a key of its own.
-template <class T>
-void write_group(std::string_view key, const T& from, YamlLines& lines) {
+void write_group(std::string_view key, const auto& from, YamlLines& lines) {
   lines.open(key);
   Writing writing{&lines, std::nullopt, nullptr, ""};
   write_members(from, writing);

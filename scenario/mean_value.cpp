@@ -55,8 +55,7 @@ class Autocorrelations {
 };
 
 /// 1 + 2 sum of weighted(lag, rho), up to the first lag that is at least six times the sum so far; 1 at least.
-template <class Weighted>
-double summed(Autocorrelations& rho, const Weighted& weighted) {
+double summed(Autocorrelations& rho, const auto& weighted) {
   double tau = 1;
   for (std::size_t lag = 1; lag < rho.samples() / 2; ++lag) {
     tau += 2 * weighted(static_cast<double>(lag), rho(lag));

@@ -40,8 +40,7 @@ struct Visitor {
   void choice(const auto&...) const {}
   void part(const auto&...) const {}
 
-  template <class M>
-  static void each(const M& value, const auto& on) {
+  static void each(const auto& value, const auto& on) {
     if constexpr (requires { value.std_error; })
       on(value.value);
     else if constexpr (requires { value.has_value(); }) {

@@ -153,10 +153,7 @@ inline const GranularSoil& grains_of(const Soil& soil) {
 }
 
 /// The gravity that pulls on soil and wheel [m/s^2].
-template <class Values>
-double gravity_of(const Values& soil) {
-  return soil.gravity.value_or(standard_gravity);
-}
+double gravity_of(const auto& soil) { return soil.gravity.value_or(standard_gravity); }
 inline double gravity_of(const Soil& soil) {
   if (soil.semi_empirical) return gravity_of(*soil.semi_empirical);
   return soil.granular ? gravity_of(*soil.granular) : standard_gravity;

@@ -265,8 +265,7 @@ class Search {
   }
 
   /// The candidate of largest evidence among those wanted.
-  template <class Wanted>
-  std::optional<std::size_t> strongest_candidate(const Wanted& wanted) const {
+  std::optional<std::size_t> strongest_candidate(const auto& wanted) const {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < found_.models.size(); ++i)
       if (wanted(found_.models[i]) && (!best || found_.models[i].log_evidence > found_.models[*best].log_evidence))

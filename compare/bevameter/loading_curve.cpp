@@ -116,8 +116,7 @@ class Sorting {
   }
 
   /// Until none is left: a spike beside another may hide it.
-  template <class May>
-  void take_spikes(const std::vector<double>& of, AsideWhy why, const May& may, double share_of = 0.0) {
+  void take_spikes(const std::vector<double>& of, AsideWhy why, const auto& may, double share_of = 0.0) {
     constexpr int rounds = 20;
     for (int round = 0; round < rounds; ++round) {
       const LiveSeries x{of, live_};

@@ -91,8 +91,7 @@ double squares_of(const ScaledResiduals& residuals) {
 }
 
 /// Sum over setpoints of (sum over channels of 2 w |off| sd)^2: the channels of one run err together.
-template <class Term>
-double variance_of(std::size_t setpoints, const Term& term) {
+double variance_of(std::size_t setpoints, const auto& term) {
   double variance = 0.0;
   for (std::size_t s = 0; s < setpoints; ++s) {
     double sum = 0.0;

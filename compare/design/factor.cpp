@@ -52,8 +52,7 @@ class Draw {
 };
 
 /// place(random): where in its slice a point lies, 0 .. 1.
-template <class Place>
-MatrixXd hypercube(int points, int dimensions, Draw& random, const Place& place) {
+MatrixXd hypercube(int points, int dimensions, Draw& random, const auto& place) {
   MatrixXd cube(points, dimensions);
   std::vector<int> slice(static_cast<std::size_t>(points));
   for (int j = 0; j < dimensions; ++j) {

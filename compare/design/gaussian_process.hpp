@@ -135,8 +135,7 @@ double straddle(const Estimate& predicted, double limit);
 
 /// The candidate (a row each) of which `score` likes the prediction best; the first of equals. Throws
 /// std::invalid_argument for no candidates.
-template <class Score>
-Eigen::Index next_point(const GaussianProcess& surrogate, const Eigen::MatrixXd& candidates, const Score& score) {
+Eigen::Index next_point(const GaussianProcess& surrogate, const Eigen::MatrixXd& candidates, const auto& score) {
   if (candidates.rows() == 0) throw std::invalid_argument("no candidates to choose from");
   Eigen::Index best = 0;
   double most = score(surrogate.predict(candidates.row(0)));

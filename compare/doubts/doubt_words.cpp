@@ -309,8 +309,7 @@ struct fmt::formatter<soilbin::compare::Said> {
     format_.assign(context.begin(), end);
     return end;
   }
-  template <class Context>
-  auto format(const soilbin::compare::Said& said, Context& context) const {
+  auto format(const soilbin::compare::Said& said, auto& context) const {
     return fmt::format_to(context.out(), "{}", soilbin::compare::told(said, format_));
   }
 };

@@ -14,8 +14,7 @@ namespace soilbin::compare {
 namespace {
 
 /// Answers of grains, or where there are none those of other models: at which grains would be asked.
-template <class Use>
-void each_answer_for_grains(const std::vector<ModelAnswers>& study, const Use& use) {
+void each_answer_for_grains(const std::vector<ModelAnswers>& study, const auto& use) {
   const bool of_grains = std::any_of(study.begin(), study.end(), [](const ModelAnswers& model) {
     return model.choice.model == ModelKind::dem && any_result({model});
   });

@@ -66,15 +66,13 @@ std::vector<std::string> add_errors(dem::SteadyDrive& steady, const AnalyticDriv
   return left_out;
 }
 
-template <class Sample>
-DriveSideSample side_sample(const Sample& sample, double soil) {
+DriveSideSample side_sample(const auto& sample, double soil) {
   DriveSideSample out{static_cast<const DriveState&>(sample), {}, soil};
   out.energy = sample.energy;
   return out;
 }
 
-template <class Value>
-std::vector<Estimate> on_each_packing(const std::vector<const DriveSide*>& grains, const Value& value) {
+std::vector<Estimate> on_each_packing(const std::vector<const DriveSide*>& grains, const auto& value) {
   std::vector<Estimate> values;
   for (const DriveSide* side : grains) values.push_back(value(*side));
   return values;
@@ -99,8 +97,7 @@ std::vector<DriveDifference> differences_of(const Steady& analytic, const DriveS
   return rows;
 }
 
-template <class Value>
-Estimate over_packings_of(const std::vector<const DriveSide*>& grains, const Value& value) {
+Estimate over_packings_of(const std::vector<const DriveSide*>& grains, const auto& value) {
   return mean_over_packings(on_each_packing(grains, value));
 }
 

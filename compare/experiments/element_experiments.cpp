@@ -73,8 +73,7 @@ std::uint64_t first_packing(std::uint64_t seed, int packings) {
 }
 
 /// A run that the engine had to stop is an experiment without an answer.
-template <class Run>
-std::vector<Estimate> answered(const Run& run) {
+std::vector<Estimate> answered(const auto& run) {
   try {
     return run();
   } catch (const dem::RunStopped& stopped) {
@@ -93,9 +92,7 @@ double board_step(const GranularSoil& soil) {
 }
 
 /// What makes a specimen of sand on sand, and what is asked of it.
-template <class Settings>
-Identity identity_of(const char* name, const ElementExperiment& experiment, const Settings& settings,
-                     Strength strength) {
+Identity identity_of(const char* name, const ElementExperiment& experiment, const auto& settings, Strength strength) {
   Identity identity(fmt::format("{}, {}", name, strength == Strength::peak ? "peak" : "residual"));
   identity.add(experiment, ContactKind::grain_grain).add(settings.specimen.laws);
   identity.add("settling_friction", settings.specimen.settling_friction).add("dt", settings.specimen.dt);

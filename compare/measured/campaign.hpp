@@ -81,8 +81,7 @@ struct Campaign {
 inline constexpr const char* campaign_format = "soilbin-campaign/1";
 
 /// What stands beside these: format, wheel and soil (written out or named), model, columns, ignored.
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<Campaign>) {
+void describe(auto& v, std::type_identity<Campaign>) {
   v.text("name", &Campaign::name, Need::required, "what to call the campaign");
   v.group("bin", &Campaign::bin, Need::optional, "inner measures of the soil bin");
   v.text("data", &Campaign::data, Need::optional, "the CSV of the runs, beside campaign.yaml");

@@ -51,24 +51,17 @@ class WriteJson {
   explicit WriteJson(Json& to) : to_(to) {}
 
   void number(std::string_view key, double value, const char*, const char*) { to_[std::string(key)] = finite(value); }
-  template <class N>
-  void whole(std::string_view key, N value, const char*) {
-    to_[std::string(key)] = value;
-  }
+  void whole(std::string_view key, auto value, const char*) { to_[std::string(key)] = value; }
   void flag(std::string_view key, bool value, const char*) { to_[std::string(key)] = value; }
   void text(std::string_view key, const std::string& value, const char*) { to_[std::string(key)] = value; }
   void numbers(std::string_view key, const std::vector<double>& values, const char*, const char*) {
     to_[std::string(key)] = list_of(values, finite);
   }
-  template <class Members>
-  void group(std::string_view key, const char*, const Members& members) {
+  void group(std::string_view key, const char*, const auto& members) {
     WriteJson inner(to_[std::string(key)] = Json::object());
     members(inner);
   }
-  template <class Members>
-  void added_group(std::string_view key, const char* meaning, const Members& members) {
-    group(key, meaning, members);
-  }
+  void added_group(std::string_view key, const char* meaning, const auto& members) { group(key, meaning, members); }
   template <class T, class Members>
   void list(std::string_view key, const std::vector<T>& values, const char*, const Members& members) {
     Json& all = to_[std::string(key)] = Json::array();
@@ -110,13 +103,11 @@ class ReadJson {
     values.clear();
     for (const Json& value : at(key)) values.push_back(as_number(value, below(key)));
   }
-  template <class Members>
-  void group(std::string_view key, const char*, const Members& members) {
+  void group(std::string_view key, const char*, const auto& members) {
     ReadJson inner(at(key), below(key));
     members(inner);
   }
-  template <class Members>
-  void added_group(std::string_view key, const char* meaning, const Members& members) {
+  void added_group(std::string_view key, const char* meaning, const auto& members) {
     if (has(key)) group(key, meaning, members);
   }
   template <class T, class Members>
@@ -171,14 +162,12 @@ class FieldsSchema {
   void numbers(std::string_view key, const std::vector<double>&, const char* unit, const char* meaning) {
     add(key, {{"type", "array"}, {"items", {{"type", {"number", "null"}}}}}, in_words(unit, meaning));
   }
-  template <class Members>
-  void group(std::string_view key, const char* meaning, const Members& members) {
+  void group(std::string_view key, const char* meaning, const auto& members) {
     FieldsSchema inner;
     members(inner);
     add(key, std::move(inner.schema), meaning);
   }
-  template <class Members>
-  void added_group(std::string_view key, const char* meaning, const Members& members) {
+  void added_group(std::string_view key, const char* meaning, const auto& members) {
     group(key, meaning, members);
     schema["required"].erase(schema["required"].size() - 1);
   }

@@ -29,8 +29,7 @@ enum class Seal { whole, none };
 Seal check_seal(const nlohmann::ordered_json& object, const std::string& place, const std::string& hint);
 
 /// Calls `read`; an exception of the JSON library becomes an InputError that names the place.
-template <class Read>
-auto read_json_at(const std::string& place, const Read& read) {
+auto read_json_at(const std::string& place, const auto& read) {
   try {
     return read();
   } catch (const nlohmann::ordered_json::exception&) {

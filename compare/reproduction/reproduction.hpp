@@ -100,8 +100,7 @@ struct Finding {
   }
 };
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<Finding>) {
+void describe(auto& v, std::type_identity<Finding>) {
   v.text("id", &Finding::id, Need::required, "a name of its own");
   v.text("title", &Finding::title, Need::optional, "what is claimed, as a sentence");
   v.text("section", &Finding::section, Need::required, "of the publication");

@@ -249,9 +249,8 @@ std::vector<WheelLimits> at_more_slopes(const Scenario& scenario, const std::vec
 namespace {
 
 /// The wheel on each slope at the slip that `slip_of` a row gives; none: not asked.
-template <class SlipOf>
 std::vector<ModelAnswers> answers_on_slopes(const Case& question, const std::vector<WheelLimits>& answers,
-                                            const SlipOf& slip_of) {
+                                            const auto& slip_of) {
   const bekker_wong::BekkerWong model({.errors = false, .patch = false});
   std::vector<ModelAnswers> study;
   for (const WheelLimits& answer : answers) {

@@ -142,15 +142,13 @@ struct VehicleCase {
   }
 };
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<VehiclePoint>) {
+void describe(auto& v, std::type_identity<VehiclePoint>) {
   v.number("x", &VehiclePoint::x, Measure{"m", any_value}, Need::optional, "forward");
   v.number("y", &VehiclePoint::y, Measure{"m", any_value}, Need::optional, "to the left of the vehicle's middle");
   v.number("z", &VehiclePoint::z, Measure{"m", zero_or_more}, Need::optional, "height over hard level ground");
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<VehicleAxle>) {
+void describe(auto& v, std::type_identity<VehicleAxle>) {
   using A = VehicleAxle;
   v.text("name", &A::name, Need::optional, "what to call the axle");
   v.number("x", &A::x, Measure{"m", any_value}, Need::required, "its place, forward");
@@ -177,15 +175,13 @@ void describe(Visitor& v, std::type_identity<VehicleAxle>) {
            "of a wheel and what spins with it; absent: a tenth of the mass that it carries, times radius squared");
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<VehicleHitch>) {
+void describe(auto& v, std::type_identity<VehicleHitch>) {
   v.group("at", &VehicleHitch::at, Need::required, "the point where the pull acts");
   v.number("angle", &VehicleHitch::angle, Measure{"deg", inclines}, Need::optional,
            "of the pull below the ground's plane");
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<VehicleCondition>) {
+void describe(auto& v, std::type_identity<VehicleCondition>) {
   using C = VehicleCondition;
   v.number("slope", &C::slope, Measure{"deg", inclines}, Need::optional, "uphill positive");
   v.number("cross_slope", &C::cross_slope, Measure{"deg", inclines}, Need::optional, "left side up positive");
@@ -193,14 +189,12 @@ void describe(Visitor& v, std::type_identity<VehicleCondition>) {
   v.number("pull", &C::pull, Measure{"N", any_value}, Need::optional, "that the vehicle pulls behind it");
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<VehicleStop>) {
+void describe(auto& v, std::type_identity<VehicleStop>) {
   v.number("at", &VehicleStop::at, Measure{"s", above_zero}, Need::required, "it begins to brake by its drive line");
   v.number("lasts", &VehicleStop::lasts, Measure{"s", zero_or_more}, Need::optional, "between the controller's ramps");
 }
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<VehicleDrive>) {
+void describe(auto& v, std::type_identity<VehicleDrive>) {
   using D = VehicleDrive;
   v.number("duration", &D::duration, Measure{"s", above_zero}, Need::optional, "the drive ends then at the latest");
   v.number("distance", &D::distance, Measure{"m", above_zero}, Need::optional, "the vehicle has arrived there");
@@ -215,8 +209,7 @@ void describe(Visitor& v, std::type_identity<VehicleDrive>) {
 
 std::string contradiction(const VehicleDrive& drive);
 
-template <class Visitor>
-void describe(Visitor& v, std::type_identity<VehicleCase>) {
+void describe(auto& v, std::type_identity<VehicleCase>) {
   using V = VehicleCase;
   v.text("name", &V::name, Need::required, "what to call the vehicle");
   v.text("source", &V::source, Need::optional, "where it is described");

@@ -88,8 +88,7 @@ class UnlockedWork {
 void end_unlocked_work();
 
 /// Does work without the interpreter's lock.
-template <class Work>
-auto unlocked(const Work& work) {
+auto unlocked(const auto& work) {
   const py::gil_scoped_release lock;
   const UnlockedWork counted;
   return work();

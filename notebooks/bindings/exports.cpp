@@ -39,8 +39,7 @@ Case export_question(const Scenario& scenario, const std::vector<OperatingCondit
 std::string case_text(const Case& question) { return write_case(question, effect_vocabulary()); }
 
 /// Writes a file that was named, in a folder that is made where it is missing.
-template <class Content>
-void write_where_named(const File& file, const Content& content) {
+void write_where_named(const File& file, const auto& content) {
   if (file) write_file_atomically(*file, content());
 }
 

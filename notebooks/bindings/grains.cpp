@@ -122,8 +122,7 @@ Simulation& idle(Simulation& simulation) {
 }
 
 /// All grains in the order of their ids, a number or three of each.
-template <class Of>
-py::array_t<double> each_grain(const Simulation& simulation, py::ssize_t width, const Of& of) {
+py::array_t<double> each_grain(const Simulation& simulation, py::ssize_t width, const auto& of) {
   const std::vector<dem::GrainNow> now = seen(simulation).grains();
   const std::vector<dem::GrainId>& ids = simulation.state().grains.id;
   std::vector<std::size_t> row(ids.size());

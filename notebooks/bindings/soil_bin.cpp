@@ -80,8 +80,7 @@ class SoilBin {
 };
 
 /// Calls on(keyword, number, meaning) for each number of the settings.
-template <class On>
-void each_keyword(DemSettings& settings, const On& on) {
+void each_keyword(DemSettings& settings, const auto& on) {
   on("settling_friction", settings.settling_friction, "share of friction while the bed settles, 0 (densest) .. 1");
   dem::each_setting(
       settings, [&](const std::string& key, double& number, const Measure& measure, auto, const char* meaning) {
