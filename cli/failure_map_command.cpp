@@ -264,10 +264,9 @@ void add_failure_map(CLI::App& app, Session& session) {
             "effect of the analytic model; repeatable; without one those of the study's, none: the base model")
       ->allow_extra_args(false);
   add_value(*command, "--store", asked->store, "FILE.json", "keep each run in this file, and go on with what is there");
-  command->add_flag(
-      "--stored", asked->stored,
-      "answer from the store alone, without running; ranges and flags of the grains are the store's where "
-      "they are not given. Without --store: from the library's map of the study");
+  command->add_flag("--stored", asked->stored,
+                    "answer from the store alone, without running; ranges and flags of the grains are the store's "
+                    "where they are not given. Without --store: from the library's map of the study");
   asked->batch.add_to(*command);
   add_value(*command, "--seed", asked->seed, "N", "seed of the design; 1");
   command->add_flag("--show-rows", asked->rows, "print every condition run");

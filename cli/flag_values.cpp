@@ -110,11 +110,10 @@ std::vector<std::string> several_values(const std::string& flag, const std::stri
   if (is_range) numbers.insert(numbers.begin(), ends.begin(), ends.end() - 1);
   if (numbers.size() == 1) return numbers;
   if (std::ranges::any_of(numbers, &std::string::empty) || (is_range && (ends.size() > 2 || numbers.size() > 3)))
-    throw InputError(fmt::format("{}: expected a list or a range, not '{}'\n  hint: {}", flag, clipped(text),
-                                 measure.unit == "-" ? "such as 0,10,20%, or 0%..60%, or in steps 0%..60%:5%"
-                                                     : fmt::format("such as 1,2,5{0}, or 1..5{0}, or in steps "
-                                                                   "1..5:0.5{0}",
-                                                                   measure.unit)));
+    throw InputError(fmt::format(
+        "{}: expected a list or a range, not '{}'\n  hint: {}", flag, clipped(text),
+        measure.unit == "-" ? "such as 0,10,20%, or 0%..60%, or in steps 0%..60%:5%"
+                            : fmt::format("such as 1,2,5{0}, or 1..5{0}, or in steps 1..5:0.5{0}", measure.unit)));
   const std::string unit = numbers.back().substr(numbers.back().find_last_of("0123456789.") + 1);
   if (!is_range) refuse_decimal_comma(flag, numbers, unit);
   for (std::string& number : numbers)

@@ -53,10 +53,9 @@ void leave_out_grains(Case& question, const std::string& name, const Workplace& 
   const bool recorded = is_there(place_of_record(place, name));
   const char* model = recorded ? "--recorded" : "--model dem";
   if (!asks(question.study, ModelKind::bekker_wong))
-    throw InputError(
-        fmt::format("{0} asks grains alone, which this page does not run\n  hint: soilbin compare {0} {1} --report "
-                    "FILE.html",
-                    name, model));
+    throw InputError(fmt::format(
+        "{0} asks grains alone, which this page does not run\n  hint: soilbin compare {0} {1} --report FILE.html", name,
+        model));
   compare::keep_models(question.study, ModelKind::bekker_wong);
   named.add(name, compare::Doubts{{compare::DoubtKind::grains_left_out, {name, model}}});
 }

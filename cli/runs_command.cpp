@@ -40,10 +40,9 @@ void add_runs(CLI::App& app, Session& session) {
   CLI::App* command =
       app.add_subcommand("runs", "a rig's time log made a campaign's table: one row a run, with errors");
   const auto asked = std::make_shared<RunsOptions>();
-  add_value(
-      *command, "file", asked->file, "LOG.csv",
-      "one row a sample: slip, load and channels as in a campaign's runs.csv (any units: load_kN), a clock, names "
-      "of runs")
+  add_value(*command, "file", asked->file, "LOG.csv",
+            "one row a sample: slip, load and channels as in a campaign's runs.csv (any units: load_kN), a clock, "
+            "names of runs")
       ->required();
   add_value(*command, "--campaign", asked->campaign, "CAMPAIGN",
             "a campaign whose campaign.yaml says what the log's columns hold; the rows are written under their names");

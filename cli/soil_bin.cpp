@@ -165,8 +165,7 @@ void SoilBinFlags::add_seed_to(CLI::App& command) {
       ->group(grains_heading);
   add_value(command, "--threads", threads, "N",
             "number of threads, which changes no bit of the answer; 0: one for each core, fewer for few grains or "
-            "while other "
-            "programs keep the cores busy")
+            "while other programs keep the cores busy")
       ->group(grains_heading);
 }
 

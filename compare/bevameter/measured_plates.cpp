@@ -305,15 +305,14 @@ PlateCurve used_of(const MeasuredPlate& plate, const PressureWindow& window, Mea
   if (used.pressure.size() >= fewest_readings) return used;
   const bool on_curve = loading.readings.size() >= fewest_readings,
              enough = plate.curve.pressure.size() >= fewest_readings;
-  throw InputError(
-      fmt::format("{} of the plate of b = {:g} mm has {} with a pressure and a sinkage above 0{}{}; {} are needed\n  "
-                  "hint: {}",
-                  test_in_words(plate.test), 1000 * plate.curve.radius, counted(used.pressure.size(), "reading"),
-                  enough && !on_curve ? " on its loading curve" : "", on_curve ? " in the window" : "", fewest_readings,
-                  on_curve ? "widen --pressure"
-                  : enough ? "the others are spikes, unloading, or constant sinkage under rising pressure: is a sensor "
-                             "stuck? Leave this test out"
-                           : "more readings of this test, or leave it out; a negative one is not counted"));
+  throw InputError(fmt::format(
+      "{} of the plate of b = {:g} mm has {} with a pressure and a sinkage above 0{}{}; {} are needed\n  hint: {}",
+      test_in_words(plate.test), 1000 * plate.curve.radius, counted(used.pressure.size(), "reading"),
+      enough && !on_curve ? " on its loading curve" : "", on_curve ? " in the window" : "", fewest_readings,
+      on_curve ? "widen --pressure"
+      : enough ? "the others are spikes, unloading, or constant sinkage under rising pressure: is a sensor "
+                 "stuck? Leave this test out"
+               : "more readings of this test, or leave it out; a negative one is not counted"));
 }
 
 /// Takes the tests out that the others disown, and notes them.

@@ -102,10 +102,9 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<Side
 
 void check_soil_for_loop(const Soil& soil) {
   if (!soil.semi_empirical)
-    throw InputError(
-        "soil '" + soil.name +
-        "' has no semi_empirical values, which the loop needs\n  hint: --soil SOIL takes them from another "
-        "soil, as bevameter writes one; --no-loop compares without the loop");
+    throw InputError("soil '" + soil.name +
+                     "' has no semi_empirical values, which the loop needs\n  hint: --soil SOIL takes them from "
+                     "another soil, as bevameter writes one; --no-loop compares without the loop");
 }
 
 Comparison compare_sides(const Case& question, std::vector<Side> sides) {

@@ -69,8 +69,7 @@ void GrainDrives::note(const dem::GrainDriveRecord& record, std::uint64_t packin
   const dem::BedSize& size = settings_.size;
   notes_.push_back(fmt::format(
       "dem: {} grains in {:.4g} x {:.4g} x {:.4g} m, bed sample {}, settling friction {:.3g}; {} steps, {:.0f} s with "
-      "the "
-      "bed",
+      "the bed",
       record.grains, size.length, size.width, size.depth, packing, settings_.settling_friction, record.steps, seconds));
 }
 

@@ -51,8 +51,7 @@ std::string provenance_of(const ForceTable& table, const CHeaderAbout& about) {
   for (const TableAxis& axis : table.axes) text += fmt::format(" *   {}\n", axis_in_words(axis));
   text += fmt::format(
       " * The first node, and what is the same at all: {}\n *\n * Largest and root mean square error of the "
-      "interpolation "
-      "against the model, in the middles of {} cells:\n",
+      "interpolation against the model, in the middles of {} cells:\n",
       in_comment(in_words(table.fixed)), table.cells);
   for (const TableChannel& channel : table.channels)
     text += fmt::format(" *   {}: {:.3g}, {:.3g} {}; the largest value is {:.4g}\n", channel.channel->name,

@@ -88,8 +88,7 @@ WheelSlipFit wheel_slip_of(Case question, const MakeModel& make) {
     throw InputError("one model is fitted\n  hint: --effect NAME for the analytic wheel with that effect alone");
   if (question.study.conditions.size() != 1)
     throw InputError(
-        "one condition is fitted: give one --load and one --slip, that of the wheel when it is pushed "
-        "aside");
+        "one condition is fitted: give one --load and one --slip, that of the wheel when it is pushed aside");
   const OperatingCondition at = question.study.conditions.front();
   if (at.longitudinal_incline != 0.0 || at.transverse_incline != 0.0 || at.yaw != 0.0)
     throw InputError(

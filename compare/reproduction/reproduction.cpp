@@ -350,8 +350,7 @@ std::vector<Answer> recorded_answers(const Record& record, const std::vector<Ope
                  : "errors are those of single runs: too few conditions have several bed samples";
   else
     remark =
-        "scatter between bed samples over the errors of single runs (errors are widened by it where it is above "
-        "1): " +
+        "scatter between bed samples over the errors of single runs (errors are widened by it where it is above 1): " +
         remark;
   const RecordedModel model(record);
   std::vector<Answer> answers;

@@ -117,14 +117,13 @@ std::vector<Step> stress_steps(const Facts& f) {
   const std::string strength = fmt::format("({}{:.4g} kPa + {:.4g} kPa tan {:.4g} deg) * {:.4g}", scaled,
                                            s.cohesion / 1000, sigma / 1000, s.friction_angle / degree, mobilised);
   const std::string a = f.settled() ? "a " : "";
-  std::vector<Step> steps = {{"normal stress there", "sigma_m = " + a + "k r^n (cos theta_m - cos theta_1)^n",
-                              fmt::format("{}k ({:.4g} m * {:.4g})^{:.4g}", scaled, f.r, drop, s.exponent),
-                              sigma / 1000, "kPa",
-                              f.wheel.patch.deflection == 0.0
-                                  ? ""
-                                  : fmt::format("of the circle at this angle; the flattened tread presses with {:.4g} "
-                                                "kPa at the most",
-                                                largest_stress(f) / 1000)}};
+  std::vector<Step> steps = {
+      {"normal stress there", "sigma_m = " + a + "k r^n (cos theta_m - cos theta_1)^n",
+       fmt::format("{}k ({:.4g} m * {:.4g})^{:.4g}", scaled, f.r, drop, s.exponent), sigma / 1000, "kPa",
+       f.wheel.patch.deflection == 0.0
+           ? ""
+           : fmt::format("of the circle at this angle; the flattened tread presses with {:.4g} kPa at the most",
+                         largest_stress(f) / 1000)}};
   const char* along = motion.locked ? " = -r cos(psi) (sin theta_1 - sin theta_m)"
                                     : " = r [(theta_1 - theta_m) - v_x/(r w) (sin theta_1 - sin theta_m)]";
   const char* locked = motion.locked ? "the wheel is locked: only the direction of j counts, shear is saturated" : "";

@@ -186,12 +186,11 @@ void add_causes(Report& report, const Comparison& comparison) {
 
 void add_loop(Report& report, const Comparison& comparison, const LoopOfComparison& loop) {
   report.add(Sentences(backed(comparison, missing_clauses(loop))), Told::in_text);
-  report.add(
-      "What the analytic model lacks",
-      Prose{{fmt::format("The loop takes the results of '{}' as measured: it refits the soil within its declared "
-                         "uncertainty, tests every known effect, and judges by cross-validation.",
-                         loop.answer.campaign)}},
-      Told::on_pages, "loop");
+  report.add("What the analytic model lacks",
+             Prose{{fmt::format("The loop takes the results of '{}' as measured: it refits the soil within its "
+                                "declared uncertainty, tests every known effect, and judges by cross-validation.",
+                                loop.answer.campaign)}},
+             Told::on_pages, "loop");
   report.add(Sentences(headline(loop.answer, in_words(loop.mistaken_columns))), Told::on_pages);
   for (Table& table : std::array{next_run_table(loop.answer), error_table(loop.answer), parameters_table(loop.answer)})
     if (!table.rows.empty()) report.add(std::move(table), Told::on_pages);
@@ -234,8 +233,7 @@ void add_method(Report& report, const Comparison& comparison, const LoopOfCompar
           {"A difference d with standard error u counts where |d| is above 2 u and above the scatter of one run; u is "
            "the root of both sides' variances. Where u rests on few re-runs, Student's t takes the place of 2.",
            "Analytic: the standard deviations of the soil's values, propagated to first order. They move all "
-           "conditions "
-           "together; the joint test takes that in. " +
+           "conditions together; the joint test takes that in. " +
                errors_in_words(comparison.question.scenario),
            "Grains: block averages of each run, or the scatter between bed samples where that is larger. With one bed "
            "sample that scatter is unknown, and its row says so.",

@@ -153,13 +153,12 @@ std::optional<Clause> grains_clause(const Comparison& comparison) {
   const auto n = static_cast<double>(known);
   const Estimate rms{std::sqrt(squares / n), std::sqrt(squared_errors / n)};
   if (rms.value < worth_a_line) return std::nullopt;
-  return Clause{
-      "The grains",
-      fmt::format("Grains of {:.3g} mm are coarse for this wheel: their own pull is too {} by about {} % of the "
-                  "load (RMS of {} of {} points; the others are not studied).",
-                  1000 * mean_diameter(*scenario.soil.granular), sum > 0 ? "large" : "small", number(rms, 100), known,
-                  with_result),
-      {ClauseEvidence::warnings}};
+  return Clause{"The grains",
+                fmt::format("Grains of {:.3g} mm are coarse for this wheel: their own pull is too {} by about {} % of "
+                            "the load (RMS of {} of {} points; the others are not studied).",
+                            1000 * mean_diameter(*scenario.soil.granular), sum > 0 ? "large" : "small",
+                            number(rms, 100), known, with_result),
+                {ClauseEvidence::warnings}};
 }
 
 /// The rule, and how many rows it would let pass by chance.

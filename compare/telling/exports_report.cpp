@@ -229,11 +229,10 @@ std::vector<BackedSentence> words_on(const WheelSlipFit& fit) {
   if (fit.idle_slip > 0.0)
     said.push_back(
         {"Without pull",
-         fmt::format(
-             "On this soil the driven wheel slips by {} % and takes {} N m before it pulls. The plugin has neither: "
-             "its slip counts from there. A friction of {} N m in the wheel's joint makes the pull right for each "
-             "torque; the wheel then travels too far for each turn.",
-             number(100 * fit.idle_slip, 3), number(fit.idle_torque, 3), number(fit.idle_torque, 3))});
+         fmt::format("On this soil the driven wheel slips by {} % and takes {} N m before it pulls. The plugin has "
+                     "neither: its slip counts from there. A friction of {} N m in the wheel's joint makes the pull "
+                     "right for each torque; the wheel then travels too far for each turn.",
+                     number(100 * fit.idle_slip, 3), number(fit.idle_torque, 3), number(fit.idle_torque, 3))});
   said.push_back({"Range", fmt::format("Slips up to 60 % without yaw; yaws of 2 to 20 deg at {} % slip, at this load "
                                        "and on this soil. The plugin has no sinkage, and its forces do not know each "
                                        "other.",

@@ -149,8 +149,7 @@ std::string checks_sentence(const FailureMapResult& result) {
   if (found == 0) return "";
   return fmt::format(
       "Check on {} fresh conditions: error {:.1f} % of the load (RMS), {} within two standard errors, {} on the "
-      "predicted "
-      "side of the tolerance.",
+      "predicted side of the tolerance.",
       found, 100 * rms_of(result.checks), within, right);
 }
 
@@ -297,9 +296,8 @@ std::vector<std::pair<std::string, std::string>> trust_in_words(const FailureMap
   const double beyond = 100 * result.shares.beyond;
   parts.emplace_back(
       "Do not trust it",
-      fmt::format("The error exceeds {:.3g} % of the load in {:.0f} % of the range by the best estimate. "
-                  "{}",
-                  tolerance, beyond, capital(rows_sentence(result))));
+      fmt::format("The error exceeds {:.3g} % of the load in {:.0f} % of the range by the best estimate. {}", tolerance,
+                  beyond, capital(rows_sentence(result))));
   std::string sure = error_sentence(result);
   if (const std::string fresh = checks_sentence(result); !fresh.empty()) sure += " " + fresh;
   parts.emplace_back("How sure", decided_sentence(result) + " " + sure);

@@ -151,9 +151,8 @@ Table candidates_table(const LoopAnswer& answer) {
   }
   table.add({"none: the base model", "-", "-", "-", number(answer.found().base.fit().chi2), values});
   table.legend =
-      "Odds to the first: how likely these data are with this set, beside the first one. chi2: the sum of the "
-      "squared residuals, each in standard deviations of the noise; about the number of values where nothing is "
-      "missing.";
+      "Odds to the first: how likely these data are with this set, beside the first one. chi2: the sum of the squared "
+      "residuals, each in standard deviations of the noise; about the number of values where nothing is missing.";
   return table;
 }
 

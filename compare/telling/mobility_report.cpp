@@ -69,8 +69,7 @@ Table factors_table(const Mobility& mobility) {
 std::vector<std::string> sources_in_words(const Mobility& mobility) {
   std::vector<std::string> lines = {
       "MI after FM 5-430-00-1 (1994), chapter 7, with WLF - CF added and TF below the line; some public codes "
-      "multiply, "
-      "or invert TF.",
+      "multiply, or invert TF.",
       "VCI1 with 3.74 in its last term, as Priddy and Willoughby (2006) print it; some codes have 2.14, which changes "
       "it by 0.1 psi at MI = 20 and less above."};
   if (mobility.pressure)

@@ -304,12 +304,11 @@ Report report_on(const Reproduction& reproduction) {
     report.add(Sentences(std::vector{sentence}), Told::on_pages);
   report.add(Sentences(conclusions(reproduction)), Told::on_terminals);
   report.add("Findings against models", findings_matrix(reproduction), Told::everywhere, "matrix");
-  report.add(
-      "How it is judged",
-      Prose{{fmt::format("Each finding is a statistic with its {:.0f} % interval. The analytic model's answers are "
-                         "taken as exact: an interval of one value.",
-                         100 * reproduction.findings.level)}},
-      Told::on_pages, "method");
+  report.add("How it is judged",
+             Prose{{fmt::format("Each finding is a statistic with its {:.0f} % interval. The analytic model's answers "
+                                "are taken as exact: an interval of one value.",
+                                100 * reproduction.findings.level)}},
+             Told::on_pages, "method");
   report.add(Items{reproduction.remarks});
   report.add(WarningsHere());
   report.add("Each finding: words, figure, intervals", Prose{}, Told::on_pages, "findings");

@@ -266,16 +266,14 @@ Table plates_table(const MeasuredPlatesFit& fit) {
 std::vector<std::string> words_on_errors(const MeasuredPlatesFit& fit) {
   return {
       "± is one standard error: the three columns beside it, squared and added.",
-      fit.one_size()
-          ? fmt::format("k stands for k_c/b + k_phi at b = {:g} mm: one plate size can't separate the two. It is valid "
-                        "for a wheel or plate of about this b.",
-                        1000 * fit.radii.front())
-          : std::string("The errors of k_c and k_phi are at this n."),
+      fit.one_size() ? fmt::format("k stands for k_c/b + k_phi at b = {:g} mm: one plate size can't separate the two. "
+                                   "It is valid for a wheel or plate of about this b.",
+                                   1000 * fit.radii.front())
+                     : std::string("The errors of k_c and k_phi are at this n."),
       fmt::format("An error of n leaves the pressure at {} mm as it is, and k follows: a file's reference_sinkage.",
                   number(1e3 * fit.reference_sinkage, 3)),
       fmt::format("xi_n is the model rft's: the pressure under any plate is {:.3f} xi_n z. RMS error of the pressures: "
-                  "{} by xi_n, "
-                  "{} by Bekker's form (of the mean pressure).",
+                  "{} by xi_n, {} by Bekker's form (of the mean pressure).",
                   resistive_force::plate_response(), percent(fit.xi_n_pressure_error), percent(fit.pressure_error))};
 }
 

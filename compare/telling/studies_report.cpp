@@ -332,10 +332,9 @@ std::vector<KeyFigure> key_figures(const std::vector<StudyPart>& studies, const 
   for (const CampaignPart& part : campaigns)
     for (const ChannelError& error : part.prediction.errors)
       if (channel_views[error.channel].name == "drawbar_pull")
-        figures.push_back(
-            {force(error.rmse), fmt::format("error of the predicted drawbar pull without fitting: RMS over {} runs, "
-                                            "{:.0f} % of the measured range ({})",
-                                            error.runs, 100 * error.share_of_range, part.campaign.name)});
+        figures.push_back({force(error.rmse), fmt::format("error of the predicted drawbar pull without fitting: RMS "
+                                                          "over {} runs, {:.0f} % of the measured range ({})",
+                                                          error.runs, 100 * error.share_of_range, part.campaign.name)});
   return figures;
 }
 

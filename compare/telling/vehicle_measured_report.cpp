@@ -176,10 +176,9 @@ Json measured_json(const MeasuredAnswers& answers) {
 std::string measured_csv(const MeasuredAnswers& answers) {
   const VehicleChannelView& view = view_of(answers);
   const bool sloping = tells_slopes_of_pulls(answers);
-  std::string text = fmt::format(
-      "slip,{0}measured_{1}_{2},model_{1}_{2},model_se_{2},difference_{2},"
-      "difference_over_error,error\n",
-      sloping ? "slope_deg," : "", view.key, view.unit);
+  std::string text =
+      fmt::format("slip,{0}measured_{1}_{2},model_{1}_{2},model_se_{2},difference_{2},difference_over_error,error\n",
+                  sloping ? "slope_deg," : "", view.key, view.unit);
   for (std::size_t i = 0; i < answers.modelled.size(); ++i) {
     const MeasuredState& measured = answers.measured.states[i];
     const ModelledState& state = answers.modelled[i];

@@ -294,8 +294,7 @@ Table map_table(const GoMap& map) {
     for (const GoCell& cell : row) widest = std::max(widest, cell.std_error);
   table.legend = fmt::format(
       "Share of {} soils, drawn by the standard deviations of the soil's values, on which it travels steadily; a "
-      "share's "
-      "standard error is up to {:.0f} %. A soil on which it fails counts as failed on every steeper slope.",
+      "share's standard error is up to {:.0f} %. A soil on which it fails counts as failed on every steeper slope.",
       map.samples, 100 * widest);
   return table;
 }

@@ -47,8 +47,7 @@ std::string contradiction_in_centre(const VehicleCase& vehicle) {
   const auto driven = std::ranges::count(vehicle.axles, YesNo::yes, &VehicleAxle::driven);
   if (vehicle.has_open_centre() && driven != 2)
     return fmt::format(
-        "an open centre_differential lies between two driven axles, and {} driven: drive two, or say "
-        "'locked'",
+        "an open centre_differential lies between two driven axles, and {} driven: drive two, or say 'locked'",
         driven == 1 ? "1 is" : fmt::format("{} are", driven));
   return "";
 }

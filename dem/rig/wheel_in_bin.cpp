@@ -40,11 +40,10 @@ void check_width(const BedSize& size, const Tire& tire) {
 void check_end(const char* flag, double room, const Tire& tire) {
   const double outer = outer_radius(tire);
   if (room >= least_room * outer) return;
-  throw InputError(
-      fmt::format("{} {:.4g} m: that near to the end of the bin the wheel, of {:.4g} m outer radius, would hang over "
-                  "the end wall as "
-                  "soon as it has sunk by {:.2g} m\n  hint: {} {:.4g}m, the outer radius, or more; {:.4g}m at least",
-                  flag, room, outer, outer - std::sqrt(outer * outer - room * room), flag, outer, least_room * outer));
+  throw InputError(fmt::format(
+      "{} {:.4g} m: that near to the end of the bin the wheel, of {:.4g} m outer radius, would hang over the end wall "
+      "as soon as it has sunk by {:.2g} m\n  hint: {} {:.4g}m, the outer radius, or more; {:.4g}m at least",
+      flag, room, outer, outer - std::sqrt(outer * outer - room * room), flag, outer, least_room * outer));
 }
 
 }  // namespace
@@ -58,9 +57,8 @@ double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig) {
   const double room = size.length - rig.behind - rig.ahead;
   if (room <= 0)
     throw InputError(
-        fmt::format("a bed of {:.4g} m leaves the wheel no way: "
-                    "--behind keeps {:.4g} m and --ahead {:.4g} m"
-                    "\n  hint: --bed-length above {:.4g} m, or less --behind and --ahead",
+        fmt::format("a bed of {:.4g} m leaves the wheel no way: --behind keeps {:.4g} m and --ahead {:.4g} m\n  hint: "
+                    "--bed-length above {:.4g} m, or less --behind and --ahead",
                     size.length, rig.behind, rig.ahead, rig.behind + rig.ahead));
   check_end("--behind", rig.behind, tire), check_end("--ahead", rig.ahead, tire);
   if (rig.travel > room * (1 + 1e-9))  // whatever rounding says

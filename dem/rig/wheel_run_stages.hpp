@@ -188,10 +188,7 @@ void WheelRunStages<Run>::stages() {
     start();
     drive();
   }
-  if (samples_.empty())
-    throw InputError(
-        "the bed ends before the wheel is up to its speed\n  "
-        "hint: a longer bed");
+  if (samples_.empty()) throw InputError("the bed ends before the wheel is up to its speed\n  hint: a longer bed");
 }
 
 template <class Run>

@@ -81,10 +81,9 @@ void bind_record(py::module_& module) {
       .def_readonly("happenings", &DriveRecord::happenings)
       .def_property_readonly(
           "energy", [](const DriveRecord& r) { return r.samples.back().energy; }, "at the end")
-      .def_property_readonly(
-          "samples", &drive_samples,
-          "arrays of one shape (samples,), SI and radians, views but for slip (NaN while the wheel all but "
-          "stands); works in J since the start");
+      .def_property_readonly("samples", &drive_samples,
+                             "arrays of one shape (samples,), SI and radians, views but for slip (NaN while the wheel "
+                             "all but stands); works in J since the start");
 }
 
 }  // namespace

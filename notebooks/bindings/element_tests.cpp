@@ -71,8 +71,7 @@ void bind_shear_box(py::module_& module) {
       "The shear box (docs/guide/element-tests.md). stresses: normal, on the plane of shear [Pa], at least two for c "
       "and phi. packings: specimens, of seeds packing, +1, ... length, width, height, travel: in mean diameters. "
       "settling_friction: 0 (densest) .. 1 (loose). inertial: number that sets the speed. Same settings, same bits, "
-      "for "
-      "any number of threads. Raises InputError, RunStopped.",
+      "for any number of threads. Raises InputError, RunStopped.",
       keyword("stresses", &S::stresses), keyword("packings", &S::packings),
       keyword("packing", &S::specimen, &dem::SpecimenSettings::packing), keyword("length", &S::length),
       keyword("width", &S::width), keyword("height", &S::height), keyword("travel", &S::travel),

@@ -64,8 +64,7 @@ void bind_fits(py::module_& module) {
       },
       py::arg("repeats"), py::arg("first"), py::arg("step"), py::arg("last"),
       "Mean of repeats with one plate: sinkages by a cubic spline over pressure, at first, first + step, .., last "
-      "[Pa]. "
-      "Raises InputError for plates of different radii.");
+      "[Pa]. Raises InputError for plates of different radii.");
   module.def(
       "fit_plates",
       [](const std::vector<PlateCurve>& curves, PlateExponent exponent) {

@@ -57,8 +57,7 @@ void bind_result(py::module_& module) {
             return py::dict(py::arg("force") = r.budget_rest.force, py::arg("bound") = r.budget_rest.bound);
           },
           "force [N]: the drawbar pull less the sum of its parts; bound [N]: the largest that is no sign of a fault, "
-          "NaN "
-          "where it isn't known")
+          "NaN where it isn't known")
       .def_property_readonly("patch", &patch_of,
                              "stresses under the wheel, from exit to entry: arrays of one shape (nodes,): theta [rad], "
                              "normal, shear, lateral_shear [Pa]; views of the result, not copies")
@@ -83,8 +82,8 @@ void bind_result(py::module_& module) {
       .def_readonly("error", &Answer::error, "'' where there is a result");
   module.def(
       "answer_of",
-      [](const TractionResult& result) {
-        return Answer{result.at, result, ""};
+      [](const TractionResult& told) {
+        return Answer{told.at, told, ""};
       },
       py::arg("result"), "The result as an Answer.");
 }

@@ -70,10 +70,9 @@ void bind_tire_and_soil(py::module_& module) {
   py::class_<Tire> tire(module, "Tire",
                         "A wheel as the soil meets it. Radius and width are those of the tread base, without lugs.");
   described(tire);
-  py::class_<SemiEmpiricalSoil> semi_empirical(
-      module, "SemiEmpiricalSoil",
-      "Values of the Bekker / Wong-Reece model, each an Estimate. Pressure under a plate of smaller width b at depth "
-      "z: p = (k_c/b + k_phi) z^n.");
+  py::class_<SemiEmpiricalSoil> semi_empirical(module, "SemiEmpiricalSoil",
+                                               "Values of the Bekker / Wong-Reece model, each an Estimate. Pressure "
+                                               "under a plate of smaller width b at depth z: p = (k_c/b + k_phi) z^n.");
   described(semi_empirical);
   py::class_<ContactPair> pair(module, "ContactPair", "Contact of two materials in the discrete element model.");
   described(pair);
@@ -246,8 +245,7 @@ void bind_library(py::module_& module) {
       },
       py::arg("soil"), py::arg("density"),
       "The soil with the values of a bed of this dry density [kg/m^3], interpolated between its `beds`. Raises "
-      "InputError "
-      "farther beyond them than they reach, and for a soil without beds.");
+      "InputError farther beyond them than they reach, and for a soil without beds.");
   module.def(
       "find_case",
       [](const std::string& name) {

@@ -194,10 +194,9 @@ void bind_soil_bin(py::module_& module) {
       .def_readonly("patch", &WheelRun::patch)
       .def_readonly("rut", &WheelRun::rut)
       .def_readonly("flow", &WheelRun::flow)
-      .def_property_readonly(
-          "samples", &wheel_samples,
-          "arrays of one shape (samples,) from the start of the motion on, views: time [s], travel, sinkage [m], "
-          "force [N] and moment [N m] of the soil on the wheel (three columns), ...");
+      .def_property_readonly("samples", &wheel_samples,
+                             "arrays of one shape (samples,) from the start of the motion on, views: time [s], travel, "
+                             "sinkage [m], force [N] and moment [N m] of the soil on the wheel (three columns), ...");
   py::class_<SoilBin>(module, "SoilBin",
                       "A virtual soil bin: a case's tire over a settled bed of its grains. Keeps its beds.")
       .def(py::init([](std::uint64_t packing, const Beds& beds, bool ledger, int threads, bool patch,

@@ -41,10 +41,9 @@ void bind_triaxial_results(py::module_& module) {
       .def_readonly("peak_at", &R::peak_at, "axial strain [-]")
       .def_readonly("dilation_angle", &R::dilation_angle, "at the peak [rad]")
       .def_readonly("work", &R::work, "of the walls on the grains during compression [J]")
-      .def_property_readonly(
-          "curve", &compression_of,
-          "arrays of one shape (samples,), views: strain, volumetric (compression positive) [-], axial, lateral_x, "
-          "lateral_y [Pa]");
+      .def_property_readonly("curve", &compression_of,
+                             "arrays of one shape (samples,), views: strain, volumetric (compression positive) [-], "
+                             "axial, lateral_x, lateral_y [Pa]");
   py::class_<TriaxialResult>(module, "TriaxialResult", "The triaxial cell's answer.")
       .def_readonly("runs", &TriaxialResult::runs)
       .def_readonly("peak", &TriaxialResult::peak, "points 0 with a single stress")
@@ -58,8 +57,7 @@ void bind_triaxial(py::module_& module) {
       module, "triaxial",
       [](const auto& soil, const auto& settings, const auto& how) { return dem::triaxial(soil, settings, how); },
       "True triaxial compression between six smooth walls (docs/guide/element-tests.md). stresses: confining [Pa], at "
-      "least "
-      "two for c and phi. side, height: of the specimen, in mean diameters. strain: axial, at the end. inertial: "
+      "least two for c and phi. side, height: of the specimen, in mean diameters. strain: axial, at the end. inertial: "
       "number that sets the rate. Raises InputError, RunStopped.",
       keyword("stresses", &S::stresses), keyword("packings", &S::packings),
       keyword("packing", &S::specimen, &dem::SpecimenSettings::packing), keyword("side", &S::side),

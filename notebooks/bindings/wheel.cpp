@@ -138,8 +138,7 @@ void bind_presumptions(py::module_& module) {
       },
       py::arg("effect"), py::arg("tire"),
       "What an effect takes for values that the tire does not declare; empty where the tire declares all that it "
-      "reads. "
-      "effect: 'lug_thrust', 'lug_thrust:FORM' or an EffectChoice.");
+      "reads. effect: 'lug_thrust', 'lug_thrust:FORM' or an EffectChoice.");
 }
 
 }  // namespace

@@ -63,8 +63,7 @@ TEST(CommandWords, AnEmptyTextIsNoValue) {
 TEST(CommandWords, WordsOfTheFieldLeadToOurs) {
   const std::pair<const char*, const char*> led[] = {
       {"estimate --soil dry-sand --grouser-height 8mm",
-       "'estimate' has no option '--grouser-height', did you mean "
-       "'--lug-height'?"},
+       "'estimate' has no option '--grouser-height', did you mean '--lug-height'?"},
       {"estimate --soil dry-sand --slope 8deg", "did you mean '--longitudinal-incline'?"},
       {"estimate rover-slip --effect grouser", "did you mean 'lug_thrust'?"},
       {"estimate rover-slip --effect lugs", "did you mean 'lug_thrust'?"},

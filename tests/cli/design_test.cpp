@@ -68,10 +68,9 @@ TEST(DesignCommand, IsAPageAsWell) {
 // The rows stand in the campaign's own columns and units, so that they are read as they are once filled in.
 TEST(DesignCommand, SpeaksInTheCampaignsUnits) {
   const Scratch scratch;
-  scratch.write("campaign.yaml",
-                std::string(planned_campaign) +
-                    "columns:\n  Weight kN: {quantity: load, unit: kN}\n  Slip: {quantity: slip, unit: "
-                    "'%'}\n  Pull lbf: {quantity: drawbar_pull, unit: lbf}\n");
+  scratch.write("campaign.yaml", std::string(planned_campaign) +
+                                     "columns:\n  Weight kN: {quantity: load, unit: kN}\n  Slip: {quantity: slip, "
+                                     "unit: '%'}\n  Pull lbf: {quantity: drawbar_pull, unit: lbf}\n");
   const std::string folder = (scratch / "").string(), rows = (scratch / "runs.csv").string();
   const Outcome outcome = soilbin("design '" + folder + "' --runs 12 --limit load=60N..140N --csv '" + rows + "'");
   ASSERT_EQ(outcome.status, 0) << outcome.err;

@@ -156,8 +156,7 @@ study:
 // The first line of an answer names the lugs; where no effect hears of them it says that they are left out.
 TEST(DoubtsOfCommands, TheFirstLineSaysThatLugsAreLeftOut) {
   const std::string lugged =
-      "estimate --soil dry-sand --radius 110mm --width 100mm --lug-height 8mm --lug-count 24 "
-      "--load 80N --slip 20% ";
+      "estimate --soil dry-sand --radius 110mm --width 100mm --lug-height 8mm --lug-count 24 --load 80N --slip 20% ";
   EXPECT_THAT(soilbin(lugged + "--effect none").out,
               HasSubstr("24 lugs of 8 mm; this model ignores the lugs) on dry-sand"));
   EXPECT_THAT(soilbin("run paper-straight --recorded --load 4kN --slip 20%").out,

@@ -137,10 +137,8 @@ TEST(Drive, DownhillGravityPutsWorkIn) {
 TEST(Drive, AWheelThatCantBeHeldAtRestIsPulledDownTheSlope) {
   const Scratch scratch;
   for (const auto& [slope, to] : {std::pair{"-40 deg", "forward"}, {"40 deg", "back"}}) {
-    const std::string file = scratch.write("slope.yaml", std::string(short_drive) +
-                                                             "  profile: [{at: 0 m, "
-                                                             "longitudinal_incline: " +
-                                                             slope + "}]\n");
+    const std::string file = scratch.write(
+        "slope.yaml", std::string(short_drive) + "  profile: [{at: 0 m, longitudinal_incline: " + slope + "}]\n");
     const Outcome r = soilbin("drive '" + file + "' --samples 20");
     EXPECT_NE(r.status, 0);
     EXPECT_THAT(r.err, AllOf(HasSubstr("can't hold the wheel at rest"), HasSubstr(std::string("N pull it ") + to)))

@@ -347,13 +347,12 @@ TEST(Estimate, WhatIsGivenAndChangesNothingIsTold) {
 // A crushed tire is no weak soil: 0.3 bar under 34 kN on hard ground, where the rigid wheel sinks 5.7 mm.
 TEST(Estimate, ATireThatCarriesNoMoreIsNoWeakSoil) {
   const Scratch scratch;
-  const std::string hard =
-      scratch
-          .write("hard.yaml",
-                 "format: soilbin-soil/1\nname: hard\nsemi_empirical: {exponent: 1, k_c: 0 kN/m^2, "
-                 "k_phi: 200000 kN/m^3, cohesion: 10 kPa, friction_angle: 30 deg, shear_modulus: "
-                 "25 mm, stress_angle_c1: 0.4, stress_angle_c2: 0.2}\n")
-          .string();
+  const std::string hard = scratch
+                               .write("hard.yaml",
+                                      "format: soilbin-soil/1\nname: hard\nsemi_empirical: {exponent: 1, k_c: 0 "
+                                      "kN/m^2, k_phi: 200000 kN/m^3, cohesion: 10 kPa, friction_angle: 30 deg, "
+                                      "shear_modulus: 25 mm, stress_angle_c1: 0.4, stress_angle_c2: 0.2}\n")
+                               .string();
   const std::string tire = " --radius 801mm --width 600mm --load 34335N --slip 20% --effect tire_flexibility ";
   const Outcome crushed = soilbin("estimate --soil '" + hard + "'" + tire + "--inflation-pressure 30kPa");
   EXPECT_EQ(crushed.status, 1);

@@ -15,11 +15,9 @@ using testing::HasSubstr;
 std::string stored(const std::string& more) {
   return "failure-map '" SOILBIN_SOURCE_DIR
          "/bench/dem_nature/studies/dem-lugs.yaml' --incline longitudinal --load 40N..100N --lug-height 0mm..15mm "
-         "--angle 0deg..15deg "
-         "--slip 5%..40% --boundary 0 --rounds 0 --settling-friction 0.2 --bed-length 0.5m --behind 0.12m --ahead "
-         "0.12m "
-         "--lowering 0.2s --resting 0.1s --starting 0.1s --tilting 0.2s --sleep 0 --stored --store '" SOILBIN_SOURCE_DIR
-         "/bench/dem_nature/failure_maps/dem-nature-longitudinal.json' " +
+         "--angle 0deg..15deg --slip 5%..40% --boundary 0 --rounds 0 --settling-friction 0.2 --bed-length 0.5m "
+         "--behind 0.12m --ahead 0.12m --lowering 0.2s --resting 0.1s --starting 0.1s --tilting 0.2s --sleep 0 "
+         "--stored --store '" SOILBIN_SOURCE_DIR "/bench/dem_nature/failure_maps/dem-nature-longitudinal.json' " +
          more;
 }
 
@@ -53,8 +51,7 @@ TEST(SlowFailureMapCommand, TellsWhereThePapersTireParts) {
   const Outcome r = soilbin(
       "failure-map paper-longitudinal --soil paper-sand-virtual --incline longitudinal --load 2kN..8kN --lug-height "
       "0mm..30mm --angle 0deg..15deg --slip 5%..50% --first 20 --boundary 20 --rounds 2 --check 5 --settling-friction "
-      "0 --json "
-      "--stored --store '" SOILBIN_SOURCE_DIR "/cases/failure_maps/paper-longitudinal.json' --report '" +
+      "0 --json --stored --store '" SOILBIN_SOURCE_DIR "/cases/failure_maps/paper-longitudinal.json' --report '" +
       page.string() + "'");
   ASSERT_EQ(r.status, 0) << r.err;
   const std::string html = text_of(page);  // "within 10 %" is of these grains, whose own error stands beside it
@@ -135,8 +132,7 @@ TEST(SlowFailureMapCommand, AsksTheLibrarysMapAgainWithoutItsFlags) {
   const std::string ranges =
       "--load 10kN..40kN --lug-height 0mm..45mm --angle 0deg..20deg --slip 5%..50% --boundary 0 --rounds 0 "
       "--coarser-twin --patch --graded 2 --bed-length 1m --behind 0.6m --ahead 1.2m --travel 2.4m --settling-friction "
-      "0 "
-      "--store '" SOILBIN_SOURCE_DIR "/cases/failure_maps/heavy-longitudinal.json' ";
+      "0 --store '" SOILBIN_SOURCE_DIR "/cases/failure_maps/heavy-longitudinal.json' ";
   EXPECT_EQ(heavy_map("--of rft"), heavy_map("--of rft " + ranges));
 }
 
@@ -194,9 +190,7 @@ TEST(FailureMapCommand, NamesWhatIsWrong) {
   EXPECT_THAT(error("--load 100N..40N --angle 0deg..1deg"), HasSubstr("below the upper"));
   EXPECT_THAT(error("--load 1N..2N --angle 15deg"), HasSubstr("expected LOW..HIGH"));
   EXPECT_THAT(soilbin("failure-map paper-longitudinal --soil paper-sand-virtual --load 1N..2N --lug-height 0mm..1mm "
-                      "--angle 0deg..1deg "
-                      "--slip 0%..1% "
-                      "--stored --store no-such.json"),
+                      "--angle 0deg..1deg --slip 0%..1% --stored --store no-such.json"),
               Refuses(HasSubstr("no-such.json: no such file")));
   EXPECT_THAT(soilbin("failure-map paper-longitudinal --load 1N..2N").err, HasSubstr("--lug-height is missing"));
   EXPECT_THAT(soilbin("failure-map rover-slip --stored").err, HasSubstr("the library has no map of 'rover-slip'"));

@@ -244,10 +244,9 @@ TEST(IgnoredInput, IsToldWithWhatReadsIt) {
 TEST(IgnoredInput, ASpeedOfACaseIsToldWhereNoModelReadsIt) {
   const Scratch scratch;
   const auto warned = [&](const std::string& models, const std::string& speed) {
-    const fs::path file = scratch.write("case.yaml",
-                                        "format: soilbin-case/1\nname: c\ntire: rover-wheel\nsoil: "
-                                        "dry-sand\nstudy:\n  models: [" +
-                                            models + "]\n  conditions: {load: 60 N, slip: 20 %, " + speed + "}\n");
+    const fs::path file = scratch.write(
+        "case.yaml", "format: soilbin-case/1\nname: c\ntire: rover-wheel\nsoil: dry-sand\nstudy:\n  models: [" +
+                         models + "]\n  conditions: {load: 60 N, slip: 20 %, " + speed + "}\n");
     const Outcome r = soilbin("run '" + file.string() + "'");
     EXPECT_EQ(r.status, 0) << r.err;
     return r.err.find("the speed is ignored: add --effect rate_dependence") != std::string::npos;

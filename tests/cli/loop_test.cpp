@@ -57,9 +57,8 @@ study:
     return outcome.json().at("rows").at(0).at("drawbar_pull").get<double>();
   };
   EXPECT_NEAR(value(two) - value(none), 0.02 * 80, 1e-9) << "g adds W g to the pull";
-  const Outcome twice = pull("twice.yaml",
-                             "{id: learned, form: drawbar_pull_by_slip, parameters: "
-                             "{slip_from: 0 %, slip_to: 50 %, c0: 0.01}}");
+  const Outcome twice = pull(
+      "twice.yaml", "{id: learned, form: drawbar_pull_by_slip, parameters: {slip_from: 0 %, slip_to: 50 %, c0: 0.01}}");
   EXPECT_EQ(twice.status, 2);
   EXPECT_THAT(twice.err, HasSubstr("effect 'learned' is listed twice"));
 }

@@ -58,10 +58,8 @@ TEST(ReproduceCommand, CallsFindingsOfThePaperByTheirNames) {
   ASSERT_NE(steep, all.end());
   EXPECT_EQ(steep->at("answers").at("dem").at("verdict"), "shown");
   const std::string warnings = told.at("warnings").dump();
-  EXPECT_THAT(
-      warnings,
-      HasSubstr("paper-efficiency, paper-efficiency-uphill, paper-horizontal, paper-longitudinal, paper-straight, "
-                "paper-transverse: the grains are coarse for this wheel"));
+  EXPECT_THAT(warnings, HasSubstr("paper-efficiency, paper-efficiency-uphill, paper-horizontal, paper-longitudinal, "
+                                  "paper-straight, paper-transverse: the grains are coarse for this wheel"));
   EXPECT_EQ(warnings.find("coarse"), warnings.rfind("coarse")) << "once for all studies of the one wheel";
   EXPECT_THAT(warnings, HasSubstr("+1053 ± 1345 N")) << "where it is worst: 8 kN, 10 % slip, of paper-efficiency";
   EXPECT_THAT(told.at("warning_kinds").dump(), Not(HasSubstr("rolling_depends_on_step")));

@@ -59,10 +59,9 @@ TEST(DoubtSentences, NameTheirPlaceAndLeaveOutClausesThatSayNothing) {
   EXPECT_THAT(in_words(slides), testing::StartsWith("study: line 7: the wheel slides down the cross slope: 36.2 N"));
   const Doubt flat{
       .kind = DoubtKind::flattens, .says = {100, 20, "", ""}, .at = condition(80, 0.2), .error = "too soft"};
-  EXPECT_EQ(
-      in_words(flat),
-      "the tire flattens at load 80 N, slip 20 % (inflation 100 kPa and carcass 20 kPa), and carries no more there: "
-      "too soft");
+  EXPECT_EQ(in_words(flat),
+            "the tire flattens at load 80 N, slip 20 % (inflation 100 kPa and carcass 20 kPa), and carries no more "
+            "there: too soft");
   EXPECT_EQ(as_remark({slides, {DoubtKind::unsteady_runs, {1, 1, 3.71}}}).find("line"), std::string::npos);
   EXPECT_EQ(as_remark({{DoubtKind::unsteady_runs, {1, 1, 3.71}}, {DoubtKind::unsteady_runs, {2, 3, 4}}}),
             "1 of 1 run not steady (drift up to 3.7 standard errors): lengthen the run; 2 of 3 runs not steady (drift "

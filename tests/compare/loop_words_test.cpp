@@ -23,8 +23,7 @@ CrossValidation mixed() {
 TEST(HeldOutWords, TellGainAndLossInTheSameBreath) {
   EXPECT_EQ(held_out_words(mixed()),
             "cross-validated error falls by 29 +- 6.2 noise variances a value; predicted better: sinkage (20.6 to 7.04 "
-            "mm); predicted "
-            "worse: drawbar pull (5.95 to 6.30 N)");
+            "mm); predicted worse: drawbar pull (5.95 to 6.30 N)");
 }
 
 /// Runs that differ in one condition alone, two of each setpoint.
@@ -242,12 +241,10 @@ TEST(ReasonWords, SayEachReason) {
        "0.001)"},
       {NoneAccepted{RerunTest{.p_value = 0.001}},
        "no known effect is accepted (not explained by noise (p = 0.012)), but setpoints deviate more than their "
-       "re-runs "
-       "scatter (p = 0.001)"},
+       "re-runs scatter (p = 0.001)"},
       {NoneAccepted{SerialTest{.p_value = 0.001, .channel = torque}},
        "no known effect is accepted (not explained by noise (p = 0.012)), but the residuals of the torque are "
-       "correlated "
-       "between successive runs (p = 0.001)"},
+       "correlated between successive runs (p = 0.001)"},
       {MoreThanNamed{UnexplainedShare{0.42}},
        "the residual is real (not explained by noise (p = 0.012)), but the best set of known effects leaves 42 % of "
        "it"},

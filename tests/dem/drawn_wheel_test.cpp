@@ -319,8 +319,7 @@ TEST_F(Drawings, AHoleIsRefusedAndToldInTheDrawingsUnit) {
   MeshSoup soup = cylinder(48, 62, 40);
   soup.triangles.erase(soup.triangles.begin() + 2);
   EXPECT_THAT(soilbin::test::refusal([&] { read_wheel(stl(soup), tire_of(0.062, 0.04)); }),
-              HasSubstr("not closed: 3 of its edges have one triangle only, such as that from (0, -20, "
-                        "62) to"));
+              HasSubstr("not closed: 3 of its edges have one triangle only, such as that from (0, -20, 62) to"));
 }
 
 // A fan of 60,000 triangles about one vertex took 18 s, in the square of their number.
