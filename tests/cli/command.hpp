@@ -32,10 +32,10 @@ inline std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-/// Bad input: status 2, and what standard error tells of it.
+/// Bad input: status 2, no answer, and what standard error tells of it.
 MATCHER_P(Refuses, told, "is refused") {
-  *result_listener << "status " << arg.status << ": " << arg.err;
-  return arg.status == 2 && testing::Matches(told)(arg.err);
+  *result_listener << "status " << arg.status << ": " << arg.err << arg.out;
+  return arg.status == 2 && arg.out.empty() && testing::Matches(told)(arg.err);
 }
 
 using Scratch = soilbin::test::Folder;

@@ -76,9 +76,7 @@ TEST(CommandWords, WordsOfTheFieldLeadToOurs) {
       {"bevameter paper-sand --size 0.5", "hint: a larger --size"},
       {"list curiosity", "'curiosity' is in the list of tires\n  hint: soilbin list tires; the whole of it: "},
   };
-  for (const auto& [words, said] : led) {
-    EXPECT_THAT(soilbin(words, "timeout 20 "), Refuses(HasSubstr(said))) << words;
-  }
+  for (const auto& [words, said] : led) EXPECT_THAT(soilbin(words, "timeout 20 "), Refuses(HasSubstr(said))) << words;
   EXPECT_THAT(soilbin("limits --help").out, Not(AnyOf(HasSubstr("--slip "), HasSubstr("--longitudinal-incline"))));
 }
 

@@ -186,8 +186,7 @@ TEST(Compare, RefusesACaseThatAsksForADriveAlone) {
 }
 
 TEST(Compare, NamesWhatIsWrong) {
-  EXPECT_THAT(soilbin("compare paper-straight --model den").err, HasSubstr("did you mean 'dem'?"));
-  EXPECT_EQ(soilbin("compare paper-straight --model den").status, 2);
+  EXPECT_THAT(soilbin("compare paper-straight --model den"), Refuses(HasSubstr("did you mean 'dem'?")));
   EXPECT_THAT(soilbin("compare paper-straight --measured cmu-smooth").err, HasSubstr("measured a wheel (r 58 mm"));
   EXPECT_THAT(soilbin("compare paper-straight --replay no-such").err, HasSubstr("no-such: no such file"));
   EXPECT_EQ(soilbin("compare paper-straight --recorded no-such.json").status, 2);

@@ -363,9 +363,7 @@ TEST(IgnoredInput, OfOtherCommands) {
       {"calibrate paper-sand --across 9", "--across has no effect on sand on sand"},
       {"calibrate paper-sand --contact tire --target board_angle=31deg --strength residual",
        "--strength has no effect on the tilting board"}};
-  for (const auto& [command, says] : wrong) {
-    EXPECT_THAT(soilbin(command), Refuses(HasSubstr(says))) << command;
-  }
+  for (const auto& [command, says] : wrong) EXPECT_THAT(soilbin(command), Refuses(HasSubstr(says))) << command;
 }
 
 }  // namespace

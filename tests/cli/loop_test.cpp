@@ -123,21 +123,16 @@ TEST(SlowLoopCommand, AsksForARunWithinTheLimits) {
 TEST(LoopCommand, RefusesAFileThatCannotBeWrittenBeforeItWorks) {
   const Scratch scratch;
   scratch.write("file", "in the way");
-  const Outcome outcome = soilbin("loop made-lesson --save-model '" + (scratch / "file" / "model.yaml").string() + "'");
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("is a file, where a folder is to be"));
-  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(soilbin("loop made-lesson --save-model '" + (scratch / "file" / "model.yaml").string() + "'"),
+              Refuses(HasSubstr("is a file, where a folder is to be")));
   EXPECT_THAT(soilbin("run paper-straight --csv '" + (scratch / "").string() + "'").err, HasSubstr("is a folder"));
 }
 
 // A folder that is there and takes no file is found by trying, before the work.
 TEST(LoopCommand, TriesThePlacesOfItsFilesBeforeItWorks) {
-  for (const std::string flag : {"--report", "--save-model"}) {
-    const Outcome outcome = soilbin("loop made-lesson " + flag + " /proc/left.file");
-    EXPECT_EQ(outcome.status, 2);
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr(flag), HasSubstr("no file can be made in '/proc'")));
-    EXPECT_EQ(outcome.out, "");
-  }
+  for (const std::string flag : {"--report", "--save-model"})
+    EXPECT_THAT(soilbin("loop made-lesson " + flag + " /proc/left.file"),
+                Refuses(AllOf(HasSubstr(flag), HasSubstr("no file can be made in '/proc'"))));
 }
 
 // No file may grow beyond 32 KiB: the page does not fit, found only once it is made. The answer is printed all the

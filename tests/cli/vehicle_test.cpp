@@ -290,7 +290,8 @@ TEST(VehicleCommand, RefusesFlagsThatContradictItsFile) {
     EXPECT_EQ(run.status, 2) << flags;
     return run.err;
   };
-  EXPECT_THAT(told("--driven frnt"), HasSubstr("no axle is called 'frnt', did you mean 'front'?\n  hint: there are front, rear"));
+  EXPECT_THAT(told("--driven frnt"),
+              HasSubstr("no axle is called 'frnt', did you mean 'front'?\n  hint: there are front, rear"));
   EXPECT_THAT(told("--drive-line lockd"), HasSubstr("did you mean 'locked'?"));
   EXPECT_THAT(told("--mass 0kg"), HasSubstr("--mass"));
   EXPECT_THAT(told("--effect none --effect multipass"), HasSubstr("--effect none excludes all others"));
