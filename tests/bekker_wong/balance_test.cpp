@@ -15,6 +15,7 @@
 #include "bekker_wong/rolling_wheel.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
@@ -28,12 +29,7 @@ double carried(const RollingWheel& wheel, const OperatingCondition& at, double t
 }
 
 std::string refusal(const RollingWheel& wheel, const OperatingCondition& at) {
-  try {
-    wheel.roll(at);
-  } catch (const NoSolution& e) {
-    return e.what();
-  }
-  return "(answered)";
+  return soilbin::test::refusal<NoSolution>([&] { wheel.roll(at); });
 }
 
 const SoilValues snow = values_of(test::snow());

@@ -10,6 +10,7 @@
 #include "compare/telling/reports.hpp"
 #include "dem/archive/hdf5.hpp"
 #include "scenario/errors.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -55,12 +56,8 @@ Case grid_question() {
 ForceTable table_by(FunctionModel::Pull pull) { return force_table(grid_question(), {}, made_by(std::move(pull))); }
 
 std::string table_refusal(const Case& question) {
-  try {
-    force_table(question, {}, made_by([](const OperatingCondition&) { return 1.0; }));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "a table was made";
+  return soilbin::test::refusal(
+      [&] { force_table(question, {}, made_by([](const OperatingCondition&) { return 1.0; })); });
 }
 
 TEST(ForceTable, OrdersItsNodesTheLastAxisFastest) {

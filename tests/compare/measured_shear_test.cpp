@@ -11,6 +11,7 @@
 #include "compare/doubts/doubts.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -92,13 +93,8 @@ TEST(MeasuredShear, CutsACohesionBelowZeroOff) {
 }
 
 TEST(MeasuredShear, RefusesWhatIsNoShearTest) {
-  const auto refused = [](const std::string& text) -> std::string {
-    try {
-      fit_measured_shear(read_shear(make_source_text(text, "shear.csv")));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "taken";
+  const auto refused = [](const std::string& text) {
+    return soilbin::test::refusal([&] { fit_measured_shear(read_shear(make_source_text(text, "shear.csv"))); });
   };
   EXPECT_THAT(refused("test,displacement_mm,shear_stress_kPa\n1,2,3\n"),
               HasSubstr("no column holds the normal stress"));

@@ -11,6 +11,7 @@
 #include "compare/reproduction/reproduction.hpp"
 #include "compare/telling/reports.hpp"
 #include "scenario/errors.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -242,13 +243,10 @@ void expect_refused(const std::string& from, const std::string& to, const std::s
   std::string text = made_findings;
   ASSERT_NE(text.find(from), std::string::npos) << from;
   text.replace(text.find(from), from.size(), to);
-  try {
-    parse_findings({"f.yaml", text});
-    FAIL() << "took it: " << to;
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(words));
-    EXPECT_THAT(error.what(), HasSubstr("f.yaml:"));
-  }
+  EXPECT_THAT(soilbin::test::refusal([&] {
+                parse_findings({"f.yaml", text});
+              }),
+              testing::AllOf(HasSubstr(words), HasSubstr("f.yaml:")));
 }
 
 TEST(FindingFile, NamesTheLineOfWhatIsWrong) {

@@ -339,12 +339,8 @@ TEST(Seal, LeavesTheGoodOneWhereTheDiskIsFull) {
   low.rlim_cur = 2000;
   std::signal(SIGXFSZ, SIG_IGN);
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &low), 0);
-  std::string message;
-  try {
-    write_restart(path, simulation.setup(), simulation.state());
-  } catch (const std::runtime_error& error) {
-    message = error.what();
-  }
+  const std::string message =
+      soilbin::test::error_of<std::runtime_error>([&] { write_restart(path, simulation.setup(), simulation.state()); });
   setrlimit(RLIMIT_FSIZE, &old);
   EXPECT_THAT(message, HasSubstr("run.h5: can't write: File too large"));
   EXPECT_TRUE(read_bytes(path) == before);

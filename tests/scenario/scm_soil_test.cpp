@@ -8,6 +8,7 @@
 #include "scenario/case.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/soil_parameters.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin::test {
 namespace {
@@ -36,12 +37,7 @@ std::string scm_with(const std::string& from, const std::string& to) {
 }
 
 std::string said_of(const std::string& text) {
-  try {
-    parse_soil({"scm.json", text});
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "it was read";
+  return test::refusal([&] { parse_soil({"scm.json", text}); });
 }
 
 TEST(ScmSoil, ReadsChronosOwnExampleInSi) {
