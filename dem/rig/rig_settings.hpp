@@ -12,8 +12,8 @@ namespace soilbin::dem {
 /// What a setting is of; a settled bed hangs on those of the bed.
 enum class SettingOf { bed, run, start, patch };
 
-/// Calls on(key, member) in the order of records, with what people set also its measure, what it is of and its meaning,
-/// in which "{}" stands for the default. Records name constants too, as const members.
+/// Calls on(key, member) for each member, in the order of records; on(key, member, measure, of, meaning) for one that
+/// people set, where "{}" in the meaning stands for the default. Constants that records name are const members.
 template <class SomeRig, class On>
 void describe_rig(SomeRig& rig, const On& on) {
   auto& [mass, tilting, lowering, resting, starting, behind, ahead, travel, patch, until_error, sampling, inertia,

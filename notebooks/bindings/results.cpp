@@ -82,8 +82,8 @@ void bind_result(py::module_& module) {
       .def_readonly("error", &Answer::error, "'' where there is a result");
   module.def(
       "answer_of",
-      [](const TractionResult& result) {
-        return Answer{result.at, result, ""};
+      [](const TractionResult& told) {
+        return Answer{told.at, told, ""};
       },
       py::arg("result"), "The result as an Answer.");
 }

@@ -15,6 +15,7 @@
 
 #include "compare/attribution/base_fit.hpp"
 #include "compare/attribution/predictive_gain.hpp"
+#include "compare/attribution/residual_tests.hpp"
 #include "compare/attribution/signatures.hpp"
 #include "compare/attribution/unnamed.hpp"
 #include "compare/fit/setpoint_squares.hpp"
