@@ -75,7 +75,7 @@ class Carried final : public Effect {
   explicit Carried(const std::vector<double>& p) : amplitude_(p[0]) {}
   void mobilise(ContactPatch& patch, std::span<const double> j, const SoilValues&,
                 const Surroundings& around) const override {
-    const double travel = around.motion.locked ? 1.0 : std::clamp(1 - around.motion.slip, 0.0, 1.0);
+    const double travel = std::min(1.0, 1 - around.motion.slip);
     const double left = std::max(0.0, 1 - amplitude_ * travel * travel * std::sin(patch.angles.entry));
     for (std::size_t i = 0; i < j.size(); ++i)
       if (patch.theta[i] < patch.angles.max_stress) patch.mobilised[i] *= left;
