@@ -102,7 +102,23 @@ Extents extents_of(const State& s) {
   return out;
 }
 
+Margins margins_of(const World& world, double largest) {
+  const Setup& setup = world.setup;
+  Margins margins;
+  margins.motion = setup.numerics.skin > 0 ? setup.numerics.skin : 0.2 * largest;
+  if (setup.laws.cohesion == CohesionLaw::jkr)
+    for (int kind = 0; kind < world.laws.kind(world.laws.materials(), 0); ++kind)
+      margins.adhesion = std::max(margins.adhesion, adhesion_reach(world.laws[kind], largest));
+  return margins;
+}
+
 }  // namespace
+
+void fit_to_largest_grain(World& world) {
+  const double largest = world.state.grains.largest_radius();
+  world.laws.fill(world.setup.materials, world.setup.laws, largest);
+  world.margins = margins_of(world, largest);
+}
 
 bool search_is_due(World& world) {
   State& s = world.state;
@@ -128,6 +144,7 @@ void search(World& world, std::span<const std::uint8_t> gone) {
   if (!gone.empty()) {
     s.clumps.remove(gone, s.grains);
     s.grains.remove(gone);
+    fit_to_largest_grain(world);  // as in a run that goes on from here
   }
   const double reach = world.margins.both();
   Cells cells(setup.domain, {s.grains.motion.data(), s.grains.count()},

@@ -88,16 +88,6 @@ void give_grids(std::vector<Body>& bodies, double reach) {
         mesh->grid = std::make_shared<TriangleGrid>(*mesh->mesh, reach);
 }
 
-Margins margins_of(const World& world, double largest) {
-  const Setup& setup = world.setup;
-  Margins margins;
-  margins.motion = setup.numerics.skin > 0 ? setup.numerics.skin : 0.2 * largest;
-  if (setup.laws.cohesion == CohesionLaw::jkr)
-    for (int kind = 0; kind < world.laws.kind(world.laws.materials(), 0); ++kind)
-      margins.adhesion = std::max(margins.adhesion, adhesion_reach(world.laws[kind], largest));
-  return margins;
-}
-
 /// OpenMP's threads stay with the process that began them: in a child made by fork() a parallel part would wait for
 /// them without end. There one thread does the work; no number of them changes a bit.
 class ThreadsOfThisProcess {
@@ -135,11 +125,9 @@ Clocks clocks_now() {
 
 /// What follows from the setup, once the grains are there.
 void prepare(World& world) {
-  const double largest = world.state.grains.largest_radius();
-  world.laws.fill(world.setup.materials, world.setup.laws, largest);
-  world.margins = margins_of(world, largest);
+  fit_to_largest_grain(world);
   world.threads = threads_of_this_process.at_most(threads_for(world.setup.numerics, world.state.grains.count()));
-  give_grids(world.state.bodies, largest + world.margins.motion + world.margins.adhesion);
+  give_grids(world.state.bodies, world.state.grains.largest_radius() + world.margins.both());
   check_step(world.setup, world.state.grains);
 }
 

@@ -12,6 +12,8 @@ namespace soilbin::dem {
 /// Takes one step. Throws RunStopped; the state is then that after the step in which it failed.
 void step(World& world);
 
+/// Sets what follows from the largest grain that is left: the tables of the laws and the margins of a search.
+void fit_to_largest_grain(World& world);
 /// Whether grains or bodies may have moved by so much since the last search that pairs could be missed.
 bool search_is_due(World& world);
 /// Sorts grains into slabs, finds pairs and grains near surfaces, and hands on what contacts remember. Rows that are

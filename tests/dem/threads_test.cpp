@@ -191,6 +191,11 @@ TEST(Copy, GoesOnWithTheSameBitsWhateverWasChangedJustBefore) {
   expect_same("an interaction", [](Simulation& s) { s.set_interaction(0, 0, {}); });
   expect_same("grains gone",
               [](Simulation& s) { s.remove_grains([](const GrainNow& grain) { return grain.position.x > 0.2; }); });
+  expect_same("the largest grain gone", [](Simulation& s) {
+    double largest = 0;
+    for (const GrainNow& grain : s.grains()) largest = std::max(largest, grain.radius);
+    s.remove_grains([&](const GrainNow& grain) { return grain.radius > 0.9 * largest; });
+  });
   expect_same("gravity", [](Simulation& s) { s.set_gravity({0, 1, -9}); });
   expect_same("the time step", [](Simulation& s) {
     Numerics finer = s.setup().numerics;
