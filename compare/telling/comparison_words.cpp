@@ -220,8 +220,7 @@ static std::string told_shear(const Comparison& comparison, const Tally& t, std:
   if (!side || !reference) return "";
   return fmt::format(
       " Shear over normal stress ahead of the largest pressure and behind it: {:.2f} and {:.2f} by {}, {:.2f} and "
-      "{:.2f} "
-      "by {}.",
+      "{:.2f} by {}.",
       side->ahead, side->behind, name_of(comparison.sides[t.side]), reference->ahead, reference->behind,
       name_of(comparison.sides[t.reference]));
 }

@@ -137,8 +137,8 @@ std::string limits_csv(const std::vector<WheelLimits>& answers, const std::vecto
       std::ranges::any_of(answers, [](const WheelLimits& a) { return a.at.inflation_pressure.has_value(); });
   std::string text = std::string("model,load_N,speed_m_s,transverse_incline_deg,yaw_deg,pass,") +
                      (with_pressure ? "inflation_pressure_kPa," : "") +
-                     "slope_deg,slip,slip_se,largest_pull_N,largest_pull_se_N,slip_of_largest_pull,max_slip,steepest_"
-                     "slope_within_max_slip_deg,steepest_slope_within_max_slip_se_deg,error,remark\n";
+                     "slope_deg,slip,slip_se,largest_pull_N,largest_pull_se_N,slip_of_largest_pull,max_slip,"
+                     "steepest_slope_within_max_slip_deg,steepest_slope_within_max_slip_se_deg,error,remark\n";
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const WheelLimits& answer = answers[i];
     const OperatingCondition& at = answer.at;
