@@ -159,7 +159,8 @@ class LikelyPoints {
       answer.learned.push_back(std::max(0.0, 1 - sd[j] * std::sqrt(12.0)));
     }
     const VectorXd inverse = sd.unaryExpr([](double one) { return one > 0 ? 1 / one : 0.0; });
-    answer.correlations = inverse.asDiagonal() * covariance * inverse.asDiagonal();
+    const Eigen::MatrixXd scaled = inverse.asDiagonal() * covariance * inverse.asDiagonal();
+    answer.correlations = scaled.selfadjointView<Eigen::Lower>();  // alike to the bit where the product is so to rounding
     answer.correlations.diagonal().setOnes();
   }
 

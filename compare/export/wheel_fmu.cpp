@@ -322,11 +322,19 @@ std::vector<PackedFile> files_in_c(const WheelFmu& fmu) {
   return {{fmu.name + ".c", fmu.source}, {fmu.name + ".h", fmu.header}};
 }
 
+/// The folder for a library: by FMI 2.0 linux64 is x86-64, and other machines have the names of FMI 3.0. The machine
+/// stands in the ELF header at byte 18.
+static std::string platform_of(const std::string& library) {
+  constexpr std::size_t machine = 18;
+  const int number = library.size() > machine ? static_cast<unsigned char>(library[machine]) : 0;
+  return number == 183 ? "aarch64-linux" : number == 243 ? "riscv64-linux" : "linux64";
+}
+
 std::string packed_fmu(const WheelFmu& fmu, const std::optional<std::string>& library,
                        const std::string& resolved_case) {
   std::vector<PackedFile> files = {{"modelDescription.xml", fmu.description}, {"resources/case.yaml", resolved_case}};
   for (PackedFile& file : files_in_c(fmu)) files.push_back({"sources/" + file.name, std::move(file.content)});
-  if (library) files.push_back({"binaries/linux64/" + fmu.name + ".so", *library});
+  if (library) files.push_back({"binaries/" + platform_of(*library) + "/" + fmu.name + ".so", *library});
   return zip_of(files);
 }
 

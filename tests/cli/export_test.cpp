@@ -18,6 +18,12 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
+#ifdef __x86_64__
+constexpr const char* fmi_platform = "linux64";
+#else
+constexpr const char* fmi_platform = "aarch64-linux";
+#endif
+
 const std::string rover_on_sand = " --soil dry-sand --tire rover-wheel";
 
 /// Reads places from its input and prints status and values; with a word, the nanoseconds of a look-up.
@@ -270,8 +276,9 @@ TEST(ExportFmi, WritesAUnitThatOthersUnpack) {
   ASSERT_EQ(shell(here + "python3 -m zipfile -e 'rover unit.fmu' unit >listed"), 0) << "a ZIP that Python reads";
   EXPECT_THAT(text_of(scratch / "unit/modelDescription.xml"), HasSubstr(answer.at("guid").get<std::string>()));
   EXPECT_THAT(text_of(scratch / "unit/resources/case.yaml"), HasSubstr("rover-wheel"));
-  EXPECT_THAT(text_of(scratch / "unit/binaries/linux64/rover_unit.so"), testing::StartsWith("\x7f"
-                                                                                            "ELF"));
+  const std::string library = text_of(scratch / "unit/binaries" / fmi_platform / "rover_unit.so");
+  EXPECT_THAT(library, testing::StartsWith("\x7f"
+                                           "ELF"));
   EXPECT_EQ(shell(here + "cc -std=c99 -pedantic -Wall -Wextra -Werror -c unit/sources/rover_unit.c -o unused.o"), 0);
   EXPECT_EQ(shell(here + "cc -std=c99 -DFMI2_FUNCTION_PREFIX=rover_unit_ -c unit/sources/rover_unit.c -o unused.o && "
                          "nm unused.o | grep -q rover_unit_fmi2DoStep"),
