@@ -46,7 +46,9 @@ compare::CampaignOptions options_of(const CampaignFlags& asked, const Soil& soil
 }
 
 int campaign(const CampaignFlags& asked, const Session& session) {
-  const std::vector<compare::NamedRecord> records = read_records(asked.records);
+  std::vector<std::string> files;
+  for (const std::string& name : asked.records) files.push_back(find_record(session.place, name, name).string());
+  const std::vector<compare::NamedRecord> records = read_records(files);
   const std::vector<compare::RecordedRun> runs = compare::joined_runs(records);
   const Scenario scenario = scenario_of(records.front(), asked.soil, session.place);
   const compare::CampaignOfRecords made =
@@ -71,7 +73,8 @@ int campaign(const CampaignFlags& asked, const Session& session) {
 void add_campaign(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("campaign", "make a measured campaign of recorded runs of grains");
   const auto asked = std::make_shared<CampaignFlags>();
-  add_value(*command, "records", asked->records, "RECORD.json", "made by soilbin run --model dem --record FILE")
+  add_value(*command, "records", asked->records, "RECORD.json|STUDY",
+            "made by soilbin run --model dem --record FILE, or a study of the library whose runs are recorded there")
       ->required();
   add_folder(*command, "--output", asked->output, "folder of the campaign")->required();
   add_value(*command, "--hide", asked->hide, "WHAT",

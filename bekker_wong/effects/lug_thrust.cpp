@@ -3,7 +3,7 @@
 // A lug of height h raises what the tread can pull: it moves the shear surface out to a larger circle, shears soil on
 // its sides, and pushes the soil behind its face. Every form rises with h/b or h/r; they differ in what the gain grows
 // with: slip (shear_radius: already at s = 0), cohesion and load (side_factors), load (passive_blade), lug size alone
-// (free_blade).
+// (free_blade). In tips the lugs bear the load too: the tread base sinks less.
 //
 // The amplitude is the share of the lug height that acts. Lugs that the tire does not declare are presumed, so that an
 // undeclared lug has a trace as well.
@@ -139,6 +139,22 @@ class ShearRadius final : public Effect {
   double share_;
 };
 
+/// The wheel rolls on the circle r + lambda h, which presses on the soil, shears it and is the torque's arm; slip and
+/// sinkage are those of the tread base. Ground too hard for the tips holds the tread base up: its sinkage is negative.
+class Tips final : public Effect {
+ public:
+  explicit Tips(const std::vector<double>& p) : share_(p[0]) {}
+  void outline(Outline& outline, const Surroundings& around) const override {
+    outline.radius += beyond(around);
+    outline.shear_radius += beyond(around);
+  }
+  void sensor(Reading& reading, const Surroundings& around) const override { reading.sinkage -= beyond(around); }
+
+ private:
+  double beyond(const Surroundings& around) const { return share_ * lug_height(around.tire); }
+  double share_;
+};
+
 /// (1 - exp(-|j|/K)) j_x/|j| at each node; the direction alone where the wheel is locked.
 void call_up(const ContactPatch& patch, const Kinematics& motion, ContactPatch::Array& forward) {
   ContactPatch::Array displacement;
@@ -255,6 +271,14 @@ std::vector<EffectForm> lug_thrust_forms() {
        .parameters = {{"lambda_s", "-", 0.5, 0.0, 4.0, meaning}},
        .presumes = of_height,
        .make = maker<ShearRadius<SlipOf::shear_circle>>()},
+      {.id = id,
+       .form = "tips",
+       .equation = "r + lambda h in place of r: pressure, shear and torque's arm; slip and sinkage of the tread base",
+       .source = "stated: lugs so near to each other that they carry the wheel (docs/lab/calibration.md)",
+       .parameters = {{"lambda", "-", 0.5, 0.0, 2.0, meaning}},
+       .steady_only = "its circle lies outside the rim that a drive follows",
+       .presumes = of_height,
+       .make = maker<Tips>()},
       {.id = id,
        .form = "side_factors",
        .equation = "tau_max = c (1 + 2 h/b) + sigma tan(phi) [1 + 0.64 (h/b) acot(h/b)], h = a h_lug",

@@ -427,14 +427,14 @@ class SubstituteCircle final : public Effect {
 
   void outline(Outline& outline, const Surroundings& around) const override {
     if (amplitude_ == 0.0) return;
-    const double larger = enlargement(outline.radius, outline.width, around);
-    outline.shear_radius += (larger - 1) * outline.radius, outline.slip_radius += (larger - 1) * outline.radius;
-    outline.radius *= larger;
+    const double more = beyond(outline.width, around);
+    for (double* radius : {&outline.radius, &outline.shear_radius, &outline.slip_radius}) *radius += more;
   }
 
   void geometry(ContactPatch& p, const Outline& outline, const Surroundings& around) const override {
     if (amplitude_ == 0.0) return;
-    for (double& arm : p.of(&ContactPatch::arm)) arm -= outline.radius - around.tire.radius;
+    const double more = beyond(outline.width, around);
+    for (double& arm : p.of(&ContactPatch::arm)) arm -= more;
   }
 
  private:
@@ -443,12 +443,13 @@ class SubstituteCircle final : public Effect {
       return std::pow(amplitude_ / circle_half_angle, 2) * told_deflection(*around.tire.deflection, around);
     return 0.25 * amplitude_ * amplitude_ * around.normal_load / (width * ground_pressure(around.tire));
   }
-  double enlargement(double radius, double width, const Surroundings& around) const {
+  /// R - r [m].
+  double beyond(double width, const Surroundings& around) const {
     SoilValues soil = around.soil;
     soil.exponent = std::min(soil.exponent, 2.5);  // Bekker's formula ends at 3
-    const double z = bekker_static_sinkage(soil, radius, width, around.normal_load);
+    const double radius = around.tire.radius, z = bekker_static_sinkage(soil, radius, width, around.normal_load);
     const double share = deflection(width, around) / z, root = std::sqrt(1 + share) + std::sqrt(share);
-    return root * root;
+    return radius * (root * root) - radius;
   }
   double amplitude_;
 };

@@ -87,9 +87,13 @@ constexpr DoubtSentence sentences[] = {
       "5 %, and what is climbed or pulled with them, as bounds"),
     D(slope_slides, "from {:.3g} deg on this soil slides by itself (c, phi, at a depth of the wheel's radius){at}"),
     D(heavy_and_lugged, "the pull of a heavy lugged tire on sand is rather too high: beside grains that resolve the lugs "
-      "by 20 to 24 % of the load (docs/guide/trust-the-estimate.md)"),
+      "by 24 to 27 % of the load, and by 4 to 7 % as a rigid wheel with --effect lug_thrust:tips --effect "
+      "shear_hump:carried --effect slip_sinkage:reece,h=100mm (docs/guide/trust-the-estimate.md)"),
     D(heavy_and_smooth, "the pull of a heavy tire on sand is rather too high without lugs too: beside grains by 20 % of "
-      "the load (docs/guide/trust-the-estimate.md)"),
+      "the load, and by 6 % with --effect shear_hump:carried --effect slip_sinkage:reece,h=100mm "
+      "(docs/guide/trust-the-estimate.md)"),
+    D(carried_beyond_grains, "shear_hump:carried takes {:.0f} % of the shear behind the largest pressure{at}: in grains "
+      "it took 80 % at most (docs/guide/trust-the-estimate.md)"),
     D(sinkage_in_rut, "after the first pass sinkage counts from the floor of the rut that the passes before have left; "
       "by {} these floors add up without end, by multipass:rut_power the whole rut grows as measured ones do"),
     D(beyond_learned, "the learned effect ({}) was learned from another range of the {}: its value at the edge of "

@@ -157,9 +157,10 @@ std::string hearing_effects(const std::string& key, bool of_drive) {
     std::vector<std::string> forms;
     std::size_t all = 0;
     for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue()) {
-      if (form.id != id) continue;
+      const bool is_default = all == 0, holds = !of_drive || form.steady_only.empty();
+      if (form.id != id || !(holds || is_default)) continue;
       ++all;
-      if (hears_of(form, key) && (!of_drive || form.steady_only.empty())) forms.push_back(id + ":" + form.form);
+      if (hears_of(form, key) && holds) forms.push_back(id + ":" + form.form);
     }
     if (forms.size() == all) forms = {id};
     names.insert(names.end(), forms.begin(), forms.end());

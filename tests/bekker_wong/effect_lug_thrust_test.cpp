@@ -5,6 +5,7 @@
 
 #include "bekker_wong/bed_fixture.hpp"
 #include "bekker_wong/earth_pressure.hpp"
+#include "scenario/yawed_frames.hpp"
 
 namespace soilbin::bekker_wong::bed {
 namespace {
@@ -39,7 +40,7 @@ TEST(LugThrust, PullsMore) {
 TEST(LugThrust, BrakedWheel) {
   const OperatingCondition at = driven(500, -0.3);
   for (const char* form : {"side_factors", "passive_blade", "free_blade"}) EXPECT_LT(gain(form, at), 0.0) << form;
-  EXPECT_GT(gain("shear_radius", at), 0.0);
+  for (const char* form : {"shear_radius", "tips"}) EXPECT_GT(gain(form, at), 0.0) << form;
 }
 
 // Slip counted at the tread base is too low by about h/r for the shear circle, so the gain is largest at low slip and
@@ -75,6 +76,37 @@ TEST(LugThrust, ShearCircleSlidesOverTheSoilsOwnPath) {
     const double t = p.theta[i], t1 = p.angles.entry;
     EXPECT_NEAR(p.j_x[i], rs * (t1 - t) - radius * 0.7 * (std::sin(t1) - std::sin(t)), 1e-15);
   }
+}
+
+// A wheel on the tips of its lugs is the wheel of that radius whose rim has its own slip; the tread base sinks less by
+// what lies between.
+TEST(LugThrust, OnTheTipsIsAWheelOfThatRadius) {
+  SoilValues soil = sand();
+  soil.c2 = 0;  // theta_m asks for the slip of the tread base
+  Tire larger = smooth();
+  const double beyond = 0.7 * 0.05 * radius;
+  larger.radius += beyond;
+  const EffectList tips = make_effects({{"lug_thrust", "tips", {{"lambda", 0.7}}}});
+  for (const double slip : {-0.2, 0.0, 0.05, 0.4}) {
+    SCOPED_TRACE(slip);
+    const double rim_slip = slip_of_ratio(speed_ratio(slip) * radius / larger.radius);
+    const Reading r = RollingWheel(smooth(), soil, tips).roll(driven(800, slip)).reading,
+                  same = RollingWheel(larger, soil, {}).roll(driven(800, rim_slip)).reading;
+    EXPECT_NEAR(r.drawbar_pull, same.drawbar_pull, 1e-8 * 800);
+    EXPECT_NEAR(r.torque, same.torque, 1e-8 * 800 * radius);
+    EXPECT_NEAR(r.sinkage, same.sinkage - beyond, 1e-10);
+  }
+}
+
+// Ground that gives way by less than the lugs are high holds the tread base up.
+TEST(LugThrust, OnHardGroundTheTreadBaseStaysAbove) {
+  SoilValues hard = sand();
+  hard.k_phi *= 1e4;
+  const EffectList tips = make_effects({{"lug_thrust", "tips", {{"lambda", 1.0}}}});
+  const double height = 0.05 * radius,
+               sinkage = RollingWheel(smooth(), hard, tips).roll(driven(800, 0.2)).reading.sinkage;
+  EXPECT_LT(sinkage, 0.0);
+  EXPECT_GT(sinkage, -height);
 }
 
 // Without cohesion the side factor is a rougher soil: tan(phi') = tan(phi) (1 + 0.64 x acot x), x = h/b = 0.125.
