@@ -140,10 +140,10 @@ void expect_agreement_at(int points, unsigned seed, bool at_corners, double leas
 
 TEST(SlowReference, AgreesAtRandomPoints) { expect_agreement_at(250, 20260101, false); }
 
-TEST(Reference, AgreesAtCornerPoints) { expect_agreement_at(150, 20260102, true); }
+TEST(SlowReference, AgreesAtCornerPoints) { expect_agreement_at(150, 20260102, true); }
 
 // What a file may hold beyond what plates usually give.
-TEST(Reference, AgreesWhereTheExponentIsUnusual) {
+TEST(SlowReference, AgreesWhereTheExponentIsUnusual) {
   expect_agreement_at(40, 20260103, false, 0.05, 0.1);
   expect_agreement_at(40, 20260104, false, 2.0, 5.0);
 }

@@ -55,8 +55,9 @@ TEST(CalibrateCommand, NamesAStoreThatIsNone) {
 
 /// Four grains across, two boards, the law that takes the longer step: seconds of work.
 const char* const small_board =
-    "calibrate paper-sand --contact tire --target board_angle=31.47deg --rolling elastic_plastic --across 4 --packings "
-    "2 --threads 1 ";
+    "calibrate '" SOILBIN_SOURCE_DIR
+    "/tests/fixtures/pebbles.yaml' --contact tire --target board_angle=31.47deg --rolling elastic_plastic --across 4 "
+    "--packings 2 --threads 1 ";
 
 TEST(SlowCalibrateCommand, FindsAContactKeepsItsRunsAndWritesASoil) {
   const Scratch scratch;

@@ -46,7 +46,7 @@ TEST(SlowVehicleCommand, TheSteepestSlopeIsOneThatItTravels) {
   }
 }
 
-TEST(VehicleCommand, TakesTheDensityOfASoilWithBeds) {
+TEST(SlowVehicleCommand, TakesTheDensityOfASoilWithBeds) {
   const auto sinkage = [](const std::string& density) {
     const auto answer = soilbin("vehicle " + rover + " --soil cullinan-sand --density " + density + " --json").json();
     return answer.at("steady").at("wheels").at(0).at("sinkage").at("value").get<double>();
@@ -276,7 +276,7 @@ condition: {speed: 0.1 m/s, slope: 2 deg}
   EXPECT_EQ(as_flags.at("vehicle"), "rover, changed");
 }
 
-TEST(VehicleCommand, TakesASoilsValuesByFlags) {
+TEST(SlowVehicleCommand, TakesASoilsValuesByFlags) {
   const auto weaker = soilbin("vehicle " + rover + " --friction-angle 25+-0deg --json").json();
   const auto declared = soilbin("vehicle " + rover + " --json").json();
   const auto up = [](const auto& answer) { return answer.at("steepest").at("up").at("slope"); };

@@ -54,9 +54,20 @@ VirtualTest shear_box() {
   return test;
 }
 
+/// The board's, as it comes: made once.
+const Calibration& of_the_board() {
+  static const Calibration found = [] {
+    ExperimentStore store;
+    return calibrate(board(), {}, store);
+  }();
+  return found;
+}
+
+/// For tests of what is asked and kept, where few points of the box do.
+constexpr int few_points = 400;
+
 TEST(Calibration, FindsABoardsAngleWithinThreePercent) {
-  ExperimentStore store;
-  const Calibration found = calibrate(board(), {}, store);
+  const Calibration& found = of_the_board();
   EXPECT_TRUE(found.reached);
   EXPECT_GE(found.best.runs, 1);
   EXPECT_NEAR(board_angle(found.best.values), 31.47 * degree, 0.03 * 31.47 * degree);  // the truth, not the surrogate
@@ -65,8 +76,7 @@ TEST(Calibration, FindsABoardsAngleWithinThreePercent) {
 }
 
 TEST(Calibration, RangeAnalysisSeesWhichFactorDoesNothing) {
-  ExperimentStore store;
-  const Calibration found = calibrate(board(), {}, store);
+  const Calibration& found = of_the_board();
   ASSERT_EQ(found.analyses.size(), 1U);
   EXPECT_EQ(found.analyses[0].ranges.order.back(), 0);  // restitution
   const AnalysisOfVariance& variance = found.analyses[0].variance;
@@ -78,8 +88,7 @@ TEST(Calibration, RangeAnalysisSeesWhichFactorDoesNothing) {
 }
 
 TEST(Calibration, CandidatesAreRunNearAndDifferent) {
-  ExperimentStore store;
-  const Calibration found = calibrate(board(), {}, store);
+  const Calibration& found = of_the_board();
   ASSERT_GE(found.candidates.size(), 3U);
   for (const Candidate& candidate : found.candidates) {
     EXPECT_GE(candidate.runs, 1);
@@ -165,9 +174,9 @@ TEST(Calibration, StoppedAndResumedIsTheSameAndDoesNoWorkTwice) {
   const Folder folder;
   ExperimentStore fresh;
   int calls_whole = 0, calls_parts = 0;
-  const Calibration whole = calibrate(board(0.2 * degree, &calls_whole), {}, fresh);
+  const Calibration whole = calibrate(board(0.2 * degree, &calls_whole), {.cloud = few_points}, fresh);
   struct Stopped {};
-  CalibrationOptions stopping;
+  CalibrationOptions stopping{.cloud = few_points};
   for (const int after : {3, 7, 11}) {
     stopping.watch = [after](const dem::Progress& progress) {
       if (std::lround(30 * progress.done) == after) throw Stopped();
@@ -177,7 +186,7 @@ TEST(Calibration, StoppedAndResumedIsTheSameAndDoesNoWorkTwice) {
   }
   ExperimentStore store(folder / "store.json");
   EXPECT_EQ(store.size(), 11U);
-  const Calibration resumed = calibrate(board(0.2 * degree, &calls_parts), {}, store);
+  const Calibration resumed = calibrate(board(0.2 * degree, &calls_parts), {.cloud = few_points}, store);
   EXPECT_EQ(calls_parts, calls_whole);
   EXPECT_EQ(resumed.best.values, whole.best.values);
   EXPECT_EQ(resumed.best.chance, whole.best.chance);
@@ -189,12 +198,12 @@ TEST(Calibration, AnotherTestDoesNotTakeFromTheStore) {
   int calls = 0;
   {
     ExperimentStore store(folder / "store.json");
-    calibrate(board(0.2 * degree, &calls), {.most_runs = 9}, store);
+    calibrate(board(0.2 * degree, &calls), {.most_runs = 9, .cloud = few_points}, store);
   }
   ExperimentStore store(folder / "store.json");
   VirtualTest other = board(0.2 * degree, &calls);
   other.identity = "another rate of tilt";
-  calibrate(other, {.most_runs = 9}, store);
+  calibrate(other, {.most_runs = 9, .cloud = few_points}, store);
   EXPECT_EQ(calls, 18);
 }
 
@@ -206,7 +215,7 @@ TEST(Calibration, FailedExperimentsAreLeftOutAndKept) {
     if (v[1] > 0.8 && v[2] > 0.6) throw NoSolution("the sand never slides\n  hint: less friction");
     return works(v, seed);
   };
-  const Calibration found = calibrate(test, {}, store);
+  const Calibration found = calibrate(test, {.cloud = few_points}, store);
   EXPECT_TRUE(found.reached);
   EXPECT_TRUE(found.analyses.empty());  // an unbalanced design has no range analysis
   EXPECT_TRUE(std::any_of(found.runs.begin(), found.runs.end(), [](const CalibrationRun& run) {
@@ -270,8 +279,8 @@ TEST(Calibration, WhereNothingIsDecidedTheLikeliestStays) {
     decision.chosen = candidates.size() - 1;
     return decision;
   };
-  const Calibration found = calibrate(board(), options, store), undecided = calibrate(board(), {}, store);
-  EXPECT_EQ(found.best.values, undecided.best.values);
+  const Calibration found = calibrate(board(), options, store);
+  EXPECT_EQ(found.best.values, of_the_board().best.values);
 }
 
 TEST(Calibration, WhatMakesNoSenseIsRefused) {

@@ -54,7 +54,7 @@ double dug(const Campaign& campaign, const EffectChoice& choice) {
 
 // Slip sinkage: found, in whichever form it digs as deep as nature does, in nature's own form its amplitude is nature's
 // within three standard errors, and the held-out error falls to the noise.
-TEST(Loop, NamesSlipSinkageAndItsSize) {
+TEST(SlowLoop, NamesSlipSinkageAndItsSize) {
   const EffectChoice truth = {"slip_sinkage", "lyasko", {{"a", 0.5}}};
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {truth}, fine_noise, 22);

@@ -151,7 +151,7 @@ TEST(TestDesign, IsNeverBelowItsSweep) {
 }
 
 // What more runs tell is never less: a sum of squares grows.
-TEST(TestDesign, MoreRunsAreNeverWorse) {
+TEST(SlowTestDesign, MoreRunsAreNeverWorse) {
   double before = 0.0;
   for (const int runs : {4, 6, 12, 24, 48}) {
     const double now = design_test(unmeasured(), options(runs)).planned.named_right;
@@ -160,7 +160,7 @@ TEST(TestDesign, MoreRunsAreNeverWorse) {
   }
 }
 
-TEST(TestDesign, CountsOnTheRunsThatAreMade) {
+TEST(SlowTestDesign, CountsOnTheRunsThatAreMade) {
   Campaign campaign = unmeasured();
   measure(campaign, sweep(), {}, fine_noise, 1);
   for (compare::Run& run : campaign.runs) run.lateral_force.reset();

@@ -114,7 +114,7 @@ TEST(VehicleSpeed, ThereIsNoneWhereTheMotorStalls) {
   EXPECT_EQ(fastest(vehicle).limit, TravelLimit::torque);
 }
 
-TEST(VehicleSpeed, TheSteepestSlopeAtASpeedIsTheTorqueCurvesThere) {
+TEST(SlowVehicleSpeed, TheSteepestSlopeAtASpeedIsTheTorqueCurvesThere) {
   // eta i T(i v/r) = r G (sin(a) + f cos(a)).
   VehicleCase vehicle = cart();
   vehicle.condition.speed = 6.0;
@@ -162,7 +162,7 @@ TEST(VehicleSpeed, OneTooSlowForItsTorqueCurveIsNotHeldThoughAFasterOneIs) {
   EXPECT_TRUE(answers_of(vehicle, wheels_of(vehicle), firm).holds_speed());
 }
 
-TEST(VehicleSpeed, IsLimitedByTheSoilWhereTheMotorsHaveMoreThanItTakes) {
+TEST(SlowVehicleSpeed, IsLimitedByTheSoilWhereTheMotorsHaveMoreThanItTakes) {
   VehicleCase vehicle = cart();
   vehicle.motor = GearedMotor{{{0.0, 1e4}, {1e3, 1e4}}, 10.0, 1.0};
   const VehicleAnswers firmly = answers_of(vehicle, wheels_of(vehicle), firm);

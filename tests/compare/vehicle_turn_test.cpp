@@ -201,10 +201,16 @@ TEST(VehicleTurn, OnTheSpotTheWheelsTurnItAgainstWhatHoldsThemAcross) {
   EXPECT_FALSE(turn.vehicle.wheels[1].backward);
 }
 
+/// The rover in balance, on soft soil: turned once for all tests.
+const VehicleTurn& turned_on_soft_soil() {
+  static const VehicleTurn turn = on_the_spot(rover_in_balance(), soft_soil);
+  return turn;
+}
+
 TEST(VehicleTurn, OnTheSpotEachWheelIsTheWheelAloneAcrossItsTravel) {
   // Of four wheels alike one says it all: its force along its plane at 0.4 m is that across it at 0.6 m.
   const VehicleCase vehicle = rover_in_balance();
-  const VehicleTurn turn = on_the_spot(vehicle, soft_soil);
+  const VehicleTurn& turn = turned_on_soft_soil();
   const auto wheels = wheels_of(vehicle);
   const double load = vehicle.mass * gravity_of(vehicle.soil) / 4;
   OperatingCondition at{.load = load, .slip = turn.vehicle.slip, .speed = 0.1 * std::hypot(0.6, 0.4) / 0.4};
@@ -217,7 +223,7 @@ TEST(VehicleTurn, OnTheSpotEachWheelIsTheWheelAloneAcrossItsTravel) {
 }
 
 TEST(VehicleTurn, OnTheSpotItsHalvesAreOneAnotherTurnedRound) {
-  const VehicleTurn turn = on_the_spot(rover_in_balance(), soft_soil);
+  const VehicleTurn& turn = turned_on_soft_soil();
   const auto& wheels = turn.vehicle.wheels;
   for (const auto& [one, other] : {std::pair{0u, 3u}, {1u, 2u}}) {
     EXPECT_NEAR(wheels[one].normal_load, wheels[other].normal_load, 1e-5);
@@ -229,7 +235,7 @@ TEST(VehicleTurn, OnTheSpotItsHalvesAreOneAnotherTurnedRound) {
   EXPECT_NEAR(power.into_wheels, power.slip_loss + power.soil_loss, 1e-4 * power.into_wheels);
 }
 
-TEST(VehicleTurn, OnTheSpotForcesAndMomentsCloseWithItsWeightBehindTheMiddle) {
+TEST(SlowVehicleTurn, OnTheSpotForcesAndMomentsCloseWithItsWeightBehindTheMiddle) {
   const VehicleCase vehicle = rover_by_sides();
   const auto wheels = wheels_of(vehicle);
   const VehicleTurn turn = on_the_spot(vehicle, soft_soil);

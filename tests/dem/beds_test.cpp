@@ -14,7 +14,8 @@ double angle_of(const BedMaterial& sand) {
   return (drained_angle(sand, 1) + drained_angle(sand, 2) + drained_angle(sand, 3)) / 3 / degree;
 }
 
-double angle_of(double sliding, double rolling, double young = 1e7) {
+/// Of soft grains by default, whose time step is longer.
+double angle_of(double sliding, double rolling, double young = 4e6) {
   BedMaterial sand;
   sand.material.young = young;
   sand.contact.sliding_friction = sliding;
@@ -28,7 +29,7 @@ TEST(SlowSlope, RisesWithBothFrictionsAndHardlyKnowsHowStiffGrainsAre) {
   const double usual = angle_of(0.5, 0.1);
   EXPECT_GT(usual, angle_of(0.2, 0.1) + 2);
   EXPECT_LT(usual, angle_of(0.5, 0.3) - 2);
-  EXPECT_NEAR(angle_of(0.5, 0.1, 4e6), usual, 2.5);
+  EXPECT_NEAR(angle_of(0.5, 0.1, 1e7), usual, 2.5);
 }
 
 TEST(SlowCrater, IsAsDeepAsTheLawOfLooseSand) {

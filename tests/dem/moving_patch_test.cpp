@@ -34,12 +34,15 @@ BedRecipe tile_recipe(GrainShape shape = GrainShape::sphere) {
   return recipe;
 }
 
-const SettledBed& tile_bed(GrainShape shape = GrainShape::sphere) {
-  static std::map<GrainShape, SettledBed> beds;
-  const auto found = beds.find(shape);
-  return found != beds.end() ? found->second
-                             : beds.emplace(shape, settle_bed(tile_recipe(shape), with_threads(1))).first->second;
+/// Settled once for all tests.
+const SettledBed& settled(const BedRecipe& recipe) {
+  static std::map<std::string, SettledBed> beds;
+  const std::string key = recipe_text(recipe);
+  const auto found = beds.find(key);
+  return found != beds.end() ? found->second : beds.emplace(key, settle_bed(recipe, with_threads(1))).first->second;
 }
+
+const SettledBed& tile_bed(GrainShape shape = GrainShape::sphere) { return settled(tile_recipe(shape)); }
 
 double slab() { return slab_of_patch(tile_recipe()); }
 double diameter() { return mean_diameter(tile_recipe().soil); }
@@ -163,7 +166,9 @@ TEST_P(Patch, EndsInWhatIsHeldAndNothingElseIs) {
 
 // A clump that went through a patch is the rigid body that it was: its spheres lie as in its tile, and weigh it.
 TEST(MovingPatch, LeavesClumpsWhole) {
-  const SettledBed& bed = tile_bed(GrainShape::two_spheres);
+  BedRecipe recipe = tile_recipe(GrainShape::two_spheres);
+  recipe.size.width = 0.06, recipe.size.depth = 0.05;
+  const SettledBed& bed = settled(recipe);
   MovingPatch patch(tile_of(bed.setup, bed.state), small_patch());
   Simulation simulation = patch.open(patch_setup(bed), bed.state, 1);
   go_on(patch, simulation, 6, 40);
@@ -347,13 +352,13 @@ void expect_same_on_both(const OperatingCondition& at, GrainShape shape = GrainS
     const double length = travel + 0.38;
     BedRecipe recipe = test::small_recipe({length, 0.16, 0.06});
     recipe.packing = packing, recipe.soil.shape = shape;
-    const SettledBed bed = with_rough_floor(settle_bed(recipe, with_threads(1)));
+    const SettledBed bed = with_rough_floor(settled(recipe));
     Rig rig = patch_rig();
     rig.patch = false, rig.travel = travel, rig.behind = 0.14, rig.ahead = 0.24;
     const Tire tire = small_wheel();
     fixed.push_back(run_wheel({bed, tire, recipe.soil.grain_tire, rig}, at, with_threads(1)));
     recipe.size.length = 0.3, recipe.periodic = true;
-    const SettledBed tile = settle_bed(recipe, with_threads(1));
+    const SettledBed& tile = settled(recipe);
     rig.patch = true;
     moving.push_back(run_wheel({tile, tire, recipe.soil.grain_tire, rig}, at, with_threads(1)));
     EXPECT_LT(moving.back().patch.grains, 0.57 / length * static_cast<double>(bed.state.grains.count()));
@@ -461,23 +466,25 @@ TEST(MovingPatch, RefusesWhatItDoesNotHave) {
   expect_refused("--ahead", [&] { DemModel(near).check(scenario); });
   expect_refused("its wheel may turn back", [&] { DemModel(patch_settings()).drive(scenario, Drive{}); });
   expect_refused("repeats itself along x", [&] {
-    const SettledBed fixed = settle_bed(test::small_recipe(), with_threads(1));
+    const SettledBed fixed = settle_bed(test::small_recipe({0.1, 0.06, 0.05}), with_threads(1));
     tile_of(fixed.setup, fixed.state);
   });
 }
 
 TEST(Tile, IsKeptAndFoundAgainApartFromTheBedWithWalls) {
   const Folder folder;
-  BedRecipe walled = tile_recipe();
+  BedRecipe recipe = tile_recipe();
+  recipe.size = {0.15, 0.06, 0.05};
+  BedRecipe walled = recipe;
   walled.periodic = false;
-  EXPECT_NE(content_key(walled), content_key(tile_recipe()));
-  BedStore(folder / "").bed(tile_recipe(), with_threads(1));
+  EXPECT_NE(content_key(walled), content_key(recipe));
+  BedStore(folder / "").bed(recipe, with_threads(1));
   std::string told;
   WorkOptions how = with_threads(1);
   how.tell = [&](const std::string& words) { told += words; };
-  const auto found = BedStore(folder / "").bed(tile_recipe(), how);
+  const auto found = BedStore(folder / "").bed(recipe, how);
   EXPECT_EQ(told, "");
-  EXPECT_EQ(test::bits(found->state), test::bits(tile_bed().state));
+  EXPECT_EQ(test::bits(found->state), test::bits(settle_bed(recipe, with_threads(1)).state));
 }
 
 }  // namespace

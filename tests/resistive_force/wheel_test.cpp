@@ -97,7 +97,7 @@ TEST(PushedWheel, IsPushedToItsLeftWhereItPointsLeft) {
   EXPECT_GT(balanced(smooth(), {.load = 80, .slip = 0.2, .yaw = 15 * degree}).forces.left, 5.0);
 }
 
-TEST(PushedWheel, GivesNoMorePowerThanIsPutIn) {
+TEST(SlowPushedWheel, GivesNoMorePowerThanIsPutIn) {
   for (const Tire& tire : {smooth(), lugged()})
     for (double slip : {-0.5, -0.1, 0.0, 0.1, 0.3, 0.6, 0.95})
       for (double yaw : {0.0, 20.0}) {
