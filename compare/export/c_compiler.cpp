@@ -81,7 +81,8 @@ CompiledC compiled_by_cc(const std::vector<PackedFile>& files, const std::string
                                   library.string(), (folder / main).string(), "-lm"},
                                  said);
   if (status == 0) return {whole_file(library), ""};
-  if (status < 0) return {std::nullopt, "there is no compiler 'cc' here"};
+  constexpr int not_found = 127;  // of a spawned program, where the system tells it so
+  if (status < 0 || status == not_found) return {std::nullopt, "there is no compiler 'cc' here"};
   const std::string words = whole_file(said);
   return {std::nullopt, fmt::format("'cc' failed with status {}: {}", status, words.substr(0, words.find('\n')))};
 }

@@ -100,8 +100,7 @@ drive:
                     file = scratch.write("truck.yaml", truck).string(),
                     flexible = scratch.write("flexible.yaml", truck + "  effects: [tire_flexibility]\n").string();
   const Outcome rigid = soilbin("drive '" + file + "' --samples 20");
-  EXPECT_THAT(rigid.err, HasSubstr("the inflation pressure is ignored: add tire_flexibility:flat_section or "
-                                   "tire_flexibility:carcass_spring to the drive's effects"));
+  EXPECT_THAT(rigid.err, HasSubstr("the inflation pressure is ignored: add tire_flexibility to the drive's effects"));
   EXPECT_THAT(rigid.out, Not(HasSubstr("carcass")));
   const Outcome flat = soilbin("drive '" + flexible + "' --samples 20"),
                 json = soilbin("drive '" + flexible + "' --samples 20 --json");
