@@ -160,7 +160,8 @@ class LikelyPoints {
     }
     const VectorXd inverse = sd.unaryExpr([](double one) { return one > 0 ? 1 / one : 0.0; });
     const Eigen::MatrixXd scaled = inverse.asDiagonal() * covariance * inverse.asDiagonal();
-    answer.correlations = scaled.selfadjointView<Eigen::Lower>();  // alike to the bit where the product is so to rounding
+    answer.correlations =
+        scaled.selfadjointView<Eigen::Lower>();  // alike to the bit where the product is so to rounding
     answer.correlations.diagonal().setOnes();
   }
 
