@@ -32,11 +32,6 @@ double critical_ground_pressure(const SoilValues& soil, double radius, double wi
   return soil.pressure_modulus(width) * std::pow(z, soil.exponent);
 }
 
-double share_left_by_carried_soil(double amplitude, double slip, double entry) {
-  const double travel = std::min(1.0, 1 - slip);
-  return std::max(0.0, 1 - amplitude * travel * travel * std::sin(entry));
-}
-
 std::optional<double> infinite_slope_angle(double cohesion, double friction_angle, double unit_weight, double depth) {
   const double sine = std::sin(friction_angle) + 2 * cohesion / (unit_weight * depth) * std::cos(friction_angle);
   if (sine > 1.0) return std::nullopt;

@@ -32,10 +32,6 @@ double rolling_resistance(const SoilValues& soil, double radius, double width, d
 /// pressure exceeds it rolls as if rigid (Wong, Theory of Ground Vehicles, ch. 2).
 double critical_ground_pressure(const SoilValues& soil, double radius, double width, double load);
 
-/// Share of the shear stress behind theta_m that soil carried along with the tread leaves (effect shear_hump:carried),
-/// max(0, 1 - a (1 - s)^2 sin(theta_1)); a braked wheel's slip counts as none.
-double share_left_by_carried_soil(double amplitude, double slip, double entry);
-
 /// The slope from which on a long slope of soil slides by itself on a plane `depth` [m] below its surface, of soil with
 /// this cohesion [Pa], friction angle [rad] and unit weight [N/m^3]: c + w cos(beta)^2 tan(phi) = w sin(beta)
 /// cos(beta), w = unit weight times depth (the infinite slope without water, after Taylor 1948). phi where c = 0; none:

@@ -4,10 +4,10 @@
 // slid far loses grip, so drawbar pull and torque bend down at high slip where the base model's level off. Under a
 // heavy wheel sand sticks to the tread behind the largest pressure and is carried along: the rear of the contact loses
 // grip at little slip. Every form is Janosi's share 1 - exp(-x) times a factor that is 1 at amplitude 0; x = j/K.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/effects/forms.hpp"
 
 namespace soilbin::bekker_wong {
@@ -75,7 +75,8 @@ class Carried final : public Effect {
   explicit Carried(const std::vector<double>& p) : amplitude_(p[0]) {}
   void mobilise(ContactPatch& patch, std::span<const double> j, const SoilValues&,
                 const Surroundings& around) const override {
-    const double left = share_left_by_carried_soil(amplitude_, around.motion.slip, patch.angles.entry);
+    const double travel = std::min(1.0, 1 - around.motion.slip);
+    const double left = std::max(0.0, 1 - amplitude_ * travel * travel * std::sin(patch.angles.entry));
     for (std::size_t i = 0; i < j.size(); ++i)
       if (patch.theta[i] < patch.angles.max_stress) patch.mobilised[i] *= left;
   }

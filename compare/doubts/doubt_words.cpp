@@ -92,8 +92,8 @@ constexpr DoubtSentence sentences[] = {
     D(heavy_and_smooth, "the pull of a heavy tire on sand is rather too high without lugs too: beside grains by 20 % of "
       "the load, and by 6 % with --effect shear_hump:carried --effect slip_sinkage:reece,h=100mm "
       "(docs/guide/trust-the-estimate.md)"),
-    D(carried_beyond_grains, "shear_hump:carried takes {:.0f} % of the shear behind the largest pressure{at}: in grains "
-      "it took 80 % at most (docs/guide/trust-the-estimate.md)"),
+    D(carried_beyond_grains, "shear_hump:carried is known from grains under tires that sink by up to {:.2g} of their "
+      "width: this wheel sinks by {:.2g} of it{at} (docs/guide/trust-the-estimate.md)"),
     D(sinkage_in_rut, "after the first pass sinkage counts from the floor of the rut that the passes before have left; "
       "by {} these floors add up without end, by multipass:rut_power the whole rut grows as measured ones do"),
     D(beyond_learned, "the learned effect ({}) was learned from another range of the {}: its value at the edge of "

@@ -113,27 +113,26 @@ Doubts slope_slides(const Scenario& scenario, const OperatingCondition& at) {
   return {Doubt{DoubtKind::slope_slides, {*slides / degree}, at}};
 }
 
-/// The amplitude of shear_hump:carried, where it is among these effects.
-std::optional<double> carried_amplitude(const std::vector<EffectChoice>& effects) {
-  for (const EffectChoice& effect : effects)
-    if (const auto& form = bekker_wong::find_form(effect); form.id == "shear_hump" && form.form == "carried") {
-      const auto& amplitude = form.parameters.front();
-      const auto own = effect.parameters.find(amplitude.name);
-      return own == effect.parameters.end() ? amplitude.fallback : own->second;
-    }
-  return std::nullopt;
+bool carries_soil_along(const std::vector<EffectChoice>& effects) {
+  return std::ranges::any_of(effects, [](const EffectChoice& effect) {
+    const bekker_wong::EffectForm& form = bekker_wong::find_form(effect);
+    return form.id == "shear_hump" && form.form == "carried";
+  });
+}
+
+/// A wheel that sinks deep for its width: soil fails sideways under it too.
+Doubts carried_beyond_grains(const Scenario& scenario, const Answer& answer) {
+  constexpr double known = 0.18;  // of the width: 110 mm of 600 mm, the deepest of heavy-lugged-cullinan
+  const double share = answer.result->sinkage.value / scenario.tire.width;
+  if (!(share > 1.5 * known) || !carries_soil_along(scenario.effects)) return {};
+  return {Doubt{DoubtKind::carried_beyond_grains, {known, share}, answer.at}};
 }
 
 /// A wheel like those of the failure map heavy-lugged-incline (docs/lab/failure-maps.md): 10 to 40 kN on a tire of 0.7
 /// m radius with lugs of 45 mm, on sand of 3.9 kPa and 31 deg; what is like it is chosen. With soil carried along the
-/// pull is near that of grains, as far as they have shown it.
+/// pull is near that of grains.
 Doubts heavy_on_sand(const Scenario& scenario, const Answer& answer) {
-  constexpr double least_left = 0.2;  // of the shear behind theta_m, in the grains of heavy-lugged-cullinan
-  if (const auto amplitude = carried_amplitude(scenario.effects)) {
-    const double left = bekker_wong::share_left_by_carried_soil(*amplitude, answer.at.slip, answer.result->entry_angle);
-    if (!(left < least_left)) return {};
-    return {Doubt{DoubtKind::carried_beyond_grains, {100 * (1 - left)}, answer.at}};
-  }
+  if (carries_soil_along(scenario.effects)) return {};
   const bekker_wong::SoilValues soil = bekker_wong::values_of(*scenario.soil.semi_empirical);
   const bool frictional = soil.cohesion < 5e3 && soil.friction_angle > 0.35;
   if (answer.at.load < 10e3 || !frictional || !(answer.result->drawbar_pull.value > 0.0)) return {};
@@ -180,6 +179,7 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Doubts& a
   append(all, drives_without_slip(answer));
   append(all, slope_slides(scenario, at));
   append(all, heavy_on_sand(scenario, answer));
+  append(all, carried_beyond_grains(scenario, answer));
   append(all, sinkage_in_rut(scenario, at));
 }
 
