@@ -35,6 +35,7 @@ struct Facts {
   const OperatingCondition& at;
   SoilValues declared, soil;  ///< before and after the effects that change the soil's values
   RolledWheel wheel;
+  bekker_wong::Outline outline;  ///< as the effects leave it
   double r, b, k, normal_load, theta_1, theta_m;
 
   bool settled() const { return wheel.stress_share != 1.0; }
@@ -45,11 +46,13 @@ Facts gather(const Scenario& scenario, const OperatingCondition& at) {
     throw InputError("soil '" + scenario.soil.name + "' has no semi_empirical values, which bekker_wong needs");
   const SoilValues declared = bekker_wong::values_of(*scenario.soil.semi_empirical);
   const bekker_wong::EffectList effects = bekker_wong::make_effects(scenario.effects);
+  const bekker_wong::RollingWheel model(scenario.tire, declared, effects, scenario.bin);
   Facts f{.scenario = scenario,
           .at = at,
           .declared = declared,
           .soil = declared,
-          .wheel = bekker_wong::RollingWheel(scenario.tire, declared, effects, scenario.bin).roll(at),
+          .wheel = model.roll(at),
+          .outline = model.outline(at),
           .r = scenario.tire.radius,
           .b = scenario.tire.width,
           .k = 0.0,
@@ -89,9 +92,15 @@ std::vector<Step> contact_steps(const Facts& f) {
                      "solved for a", f.wheel.stress_share, "-", carried});
   }
   steps.push_back({"sinkage", yields == 0.0 ? "z = r (1 - cos theta_1)" : "z = r (1 - cos theta_1) - deflection",
-                   fmt::format("{:.4g} m (1 - cos {:.4g} deg)", f.r, f.theta_1 / degree) +
+                   fmt::format("{:.4g} m (1 - cos {:.4g} deg)", f.outline.radius, f.theta_1 / degree) +
                        (yields == 0.0 ? "" : fmt::format(" - {:.4g} mm", 1000 * yields)),
-                   1000 * f.wheel.sinkage, "mm"});
+                   1000 * f.wheel.sinkage, "mm",
+                   f.outline.radius == f.r ? "" : "r: of the circle that presses, which the effects below change"});
+  if (const double apart = f.wheel.reading.sinkage - f.wheel.sinkage; apart != 0.0)
+    steps.push_back(
+        {"sinkage as it is told", "z + what the effects below add",
+         fmt::format("{:.4g} {} {:.4g} mm", 1000 * f.wheel.sinkage, apart < 0.0 ? "-" : "+", 1000 * std::abs(apart)),
+         1000 * f.wheel.reading.sinkage, "mm"});
   steps.push_back({"angle of largest stress", "theta_m = (c1 + c2 |s|) theta_1",
                    fmt::format("({:.4g} + {:.4g} * {:.4g}) {:.4g} deg", s.c1, s.c2, std::abs(f.wheel.motion.slip),
                                f.theta_1 / degree),
@@ -106,12 +115,16 @@ double largest_stress(const Facts& f) {
 std::vector<Step> stress_steps(const Facts& f) {
   const SoilValues& s = f.soil;
   const double drop = std::cos(f.theta_m) - std::cos(f.theta_1);
-  const double share = f.wheel.stress_share, sigma = share * f.k * std::pow(f.r * drop, s.exponent);
+  const double share = f.wheel.stress_share, sigma = share * f.k * std::pow(f.outline.radius * drop, s.exponent);
   const std::string scaled = f.settled() ? fmt::format("{:.4g} * ", share) : "";
   const auto& motion = f.wheel.motion;
   const double turned = f.theta_1 - f.theta_m, rim = motion.rim();
-  const double j_x = f.r * (rim * turned - motion.forward * (std::sin(f.theta_1) - std::sin(f.theta_m)));
-  const double j_y = f.r * motion.lateral * turned, j = motion.lateral == 0.0 ? j_x : std::hypot(j_x, j_y);
+  const double turned_sine = std::sin(f.theta_1) - std::sin(f.theta_m);
+  const double shears = f.outline.shear_radius, slips = f.outline.slip_radius;
+  const bool one_radius = shears == slips;
+  const double j_x = one_radius ? shears * (rim * turned - motion.forward * turned_sine)
+                                : shears * rim * turned - slips * motion.forward * turned_sine;
+  const double j_y = slips * motion.lateral * turned, j = motion.lateral == 0.0 ? j_x : std::hypot(j_x, j_y);
   const double mobilised = motion.locked ? 1.0 : 1 - std::exp(-std::abs(j) / s.shear_modulus);
   const double tau = std::copysign((share * s.cohesion + sigma * std::tan(s.friction_angle)) * mobilised, j);
   const std::string strength = fmt::format("({}{:.4g} kPa + {:.4g} kPa tan {:.4g} deg) * {:.4g}", scaled,
@@ -119,19 +132,21 @@ std::vector<Step> stress_steps(const Facts& f) {
   const std::string a = f.settled() ? "a " : "";
   std::vector<Step> steps = {
       {"normal stress there", "sigma_m = " + a + "k r^n (cos theta_m - cos theta_1)^n",
-       fmt::format("{}k ({:.4g} m * {:.4g})^{:.4g}", scaled, f.r, drop, s.exponent), sigma / 1000, "kPa",
+       fmt::format("{}k ({:.4g} m * {:.4g})^{:.4g}", scaled, f.outline.radius, drop, s.exponent), sigma / 1000, "kPa",
        f.wheel.patch.deflection == 0.0
            ? ""
            : fmt::format("of the circle at this angle; the flattened tread presses with {:.4g} kPa at the most",
                          largest_stress(f) / 1000)}};
   const char* along = motion.locked ? " = -r cos(psi) (sin theta_1 - sin theta_m)"
-                                    : " = r [(theta_1 - theta_m) - v_x/(r w) (sin theta_1 - sin theta_m)]";
+                      : one_radius  ? " = r [(theta_1 - theta_m) - v_x/(r w) (sin theta_1 - sin theta_m)]"
+                                    : " = R_s (theta_1 - theta_m) - v_x/w (sin theta_1 - sin theta_m)";
   const char* locked = motion.locked ? "the wheel is locked: only the direction of j counts, shear is saturated" : "";
-  const double turned_sine = std::sin(f.theta_1) - std::sin(f.theta_m);
   const std::string by_x =
-      motion.locked ? fmt::format("{:.4g} m * {:.4g}", motion.forward * f.r, -turned_sine)
-                    : fmt::format("{:.4g} m ({:.4g} - {:.4g} * {:.4g})", f.r, turned, motion.forward, turned_sine);
-  const std::string by_y = fmt::format("{:.4g} m * {:.4g} * {:.4g}", f.r, turned, motion.lateral);
+      motion.locked ? fmt::format("{:.4g} m * {:.4g}", motion.forward * slips, -turned_sine)
+      : one_radius
+          ? fmt::format("{:.4g} m ({:.4g} - {:.4g} * {:.4g})", shears, turned, motion.forward, turned_sine)
+          : fmt::format("{:.4g} m * {:.4g} - {:.4g} m * {:.4g}", shears, turned, motion.forward * slips, turned_sine);
+  const std::string by_y = fmt::format("{:.4g} m * {:.4g} * {:.4g}", slips, turned, motion.lateral);
   if (motion.lateral == 0.0) {
     steps.push_back({"shear displacement there", std::string("j") + along, by_x, 1000 * j_x, "mm", locked});
     steps.push_back({"shear stress there", "tau = (" + a + "c + sigma_m tan phi) (1 - exp(-|j|/K)) sign(j)", strength,

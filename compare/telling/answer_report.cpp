@@ -339,7 +339,7 @@ std::string equations_text(const Explanation& explanation) {
     if (!steps.empty()) text += (text.empty() ? "" : "\n") + std::string(heading) + "\n" + steps_text(steps);
   };
   add(explanation.effects.empty() ? "Equations with their values"
-                                  : "Base-model equations; effects change only the soil values shown",
+                                  : "Base-model equations, with the soil values and the circles that the effects leave",
       explanation.steps);
   add("Effects", explanation.effects);
   add("Closed-form checks (no balance, no effects)", explanation.cross_checks);

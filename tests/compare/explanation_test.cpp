@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
+#include "scenario/unit.hpp"
 #include "tests/fixtures.hpp"
 
 namespace soilbin::compare {
@@ -34,6 +37,30 @@ TEST(Explanation, TellsTheStressesThatAct) {
     EXPECT_NEAR(step_named(explanation, "normal stress there") / normal, 1, 0.01) << settles;
     EXPECT_NEAR(step_named(explanation, "shear stress there") / shear, 1, 0.1) << settles;
   }
+}
+
+// Where an effect moves the circle that presses, or the one that shears, the numbers are that circle's: what they give
+// is what stands behind them.
+TEST(Explanation, ItsNumbersGiveItsSinkageWhateverCircleEffectsLeave) {
+  Scenario scenario = test::wheel_on_sand();
+  scenario.tire.inflation_pressure = 20e3;
+  for (const EffectChoice& effect :
+       {EffectChoice{"lug_thrust", "tips", {{"lambda", 1.0}}}, EffectChoice{"lug_thrust", "shear_radius", {}},
+        EffectChoice{"tire_flexibility", "substitute_circle", {}}}) {
+    SCOPED_TRACE(effect.form);
+    scenario.effects = {effect};
+    const Explanation explanation = explain(scenario, test::condition(80, 0.2));
+    const auto step = std::ranges::find(explanation.steps, "sinkage", &Step::name);
+    double radius = 0, angle = 0;  // "0.09 m (1 - cos 30 deg)"
+    ASSERT_EQ(std::sscanf(step->numbers.c_str(), "%lf m (1 - cos %lf deg)", &radius, &angle), 2) << step->numbers;
+    EXPECT_NEAR(1000 * radius * (1 - std::cos(angle * degree)) / step->value, 1, 2e-3);
+    const auto [normal, shear] = largest_of(explanation.result.patch);
+    EXPECT_NEAR(step_named(explanation, "normal stress there") / normal, 1, 0.01);
+    EXPECT_NEAR(step_named(explanation, "shear stress there") / shear, 1, 0.1);
+  }
+  scenario.effects = {{"lug_thrust", "tips", {}}};
+  const Explanation explanation = explain(scenario, test::condition(80, 0.2));
+  EXPECT_NEAR(step_named(explanation, "sinkage as it is told"), 1000 * explanation.result.sinkage.value, 1e-9);
 }
 
 }  // namespace
