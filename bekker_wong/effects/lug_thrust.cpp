@@ -6,7 +6,7 @@
 // (free_blade). In tips the lugs bear the load too: the tread base sinks less.
 //
 // The amplitude is the share of the lug height that acts. Lugs that the tire does not declare are presumed, so that an
-// undeclared lug has a trace as well.
+// undeclared lug has a trace as well; tips takes declared ones alone.
 //
 // What lugs can give has three limits, each exact away from its corner and rounded there:
 // - A lug acts as far as it is buried: where the tread base sinks by less than the lug height, by that depth.
@@ -37,6 +37,14 @@ constexpr Presumption lug_height = {
     .declared = [](const Tire& t) { return is_lugged(t) ? std::optional<double>(t.lugs.height) : std::nullopt; },
     .presumed = [](const Tire& t) { return 0.05 * t.radius; },
     .else_do = "leave the effect out for a wheel without lugs"};
+
+/// A larger circle under a wheel without lugs is no lug.
+constexpr Presumption own_lug_height = {.key = "lugs.height",
+                                        .name = "lug height",
+                                        .unit = "mm",
+                                        .rule = "a smooth wheel",
+                                        .declared = lug_height.declared,
+                                        .presumed = [](const Tire&) { return 0.0; }};
 
 constexpr Presumption lug_count = {
     .key = "lugs.count",
@@ -151,7 +159,7 @@ class Tips final : public Effect {
   void sensor(Reading& reading, const Surroundings& around) const override { reading.sinkage -= beyond(around); }
 
  private:
-  double beyond(const Surroundings& around) const { return share_ * lug_height(around.tire); }
+  double beyond(const Surroundings& around) const { return share_ * own_lug_height(around.tire); }
   double share_;
 };
 
@@ -277,7 +285,7 @@ std::vector<EffectForm> lug_thrust_forms() {
        .source = "stated: lugs so near to each other that they carry the wheel (docs/lab/calibration.md)",
        .parameters = {{"lambda", "-", 0.5, 0.0, 2.0, meaning}},
        .steady_only = "its circle lies outside the rim that a drive follows",
-       .presumes = of_height,
+       .presumes = {own_lug_height},
        .make = maker<Tips>()},
       {.id = id,
        .form = "side_factors",

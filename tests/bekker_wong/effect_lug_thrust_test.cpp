@@ -24,7 +24,7 @@ double gain(const char* form, const OperatingCondition& at) {
 // Lugs grip more soil: more pull and more torque at working slip. More shear carries more load: no deeper sinkage.
 TEST(LugThrust, PullsMore) {
   for (const EffectForm& form : effect_catalogue()) {
-    if (form.id != "lug_thrust") continue;
+    if (form.id != "lug_thrust" || form.form == "tips") continue;  // which takes lugs that are declared alone
     SCOPED_TRACE(form.form);
     for (const double slip : {0.1, 0.3, 0.6}) {
       const Reading r = with({form.id, form.form, {}}, driven(800, slip)), b = base(driven(800, slip));
@@ -40,7 +40,7 @@ TEST(LugThrust, PullsMore) {
 TEST(LugThrust, BrakedWheel) {
   const OperatingCondition at = driven(500, -0.3);
   for (const char* form : {"side_factors", "passive_blade", "free_blade"}) EXPECT_LT(gain(form, at), 0.0) << form;
-  for (const char* form : {"shear_radius", "tips"}) EXPECT_GT(gain(form, at), 0.0) << form;
+  EXPECT_GT(gain("shear_radius", at), 0.0);
 }
 
 // Slip counted at the tread base is too low by about h/r for the shear circle, so the gain is largest at low slip and
@@ -83,19 +83,23 @@ TEST(LugThrust, ShearCircleSlidesOverTheSoilsOwnPath) {
 TEST(LugThrust, OnTheTipsIsAWheelOfThatRadius) {
   SoilValues soil = sand();
   soil.c2 = 0;  // theta_m asks for the slip of the tread base
-  Tire larger = smooth();
+  Tire larger = smooth(), lugged = smooth();
+  lugged.lugs.height = 0.05 * radius;
   const double beyond = 0.7 * 0.05 * radius;
   larger.radius += beyond;
   const EffectList tips = make_effects({{"lug_thrust", "tips", {{"lambda", 0.7}}}});
   for (const double slip : {-0.2, 0.0, 0.05, 0.4}) {
     SCOPED_TRACE(slip);
     const double rim_slip = slip_of_ratio(speed_ratio(slip) * radius / larger.radius);
-    const Reading r = RollingWheel(smooth(), soil, tips).roll(driven(800, slip)).reading,
+    const Reading r = RollingWheel(lugged, soil, tips).roll(driven(800, slip)).reading,
                   same = RollingWheel(larger, soil, {}).roll(driven(800, rim_slip)).reading;
     EXPECT_NEAR(r.drawbar_pull, same.drawbar_pull, 1e-8 * 800);
     EXPECT_NEAR(r.torque, same.torque, 1e-8 * 800 * radius);
     EXPECT_NEAR(r.sinkage, same.sinkage - beyond, 1e-10);
   }
+  const OperatingCondition at = driven(800, 0.2);
+  EXPECT_EQ(RollingWheel(smooth(), soil, tips).roll(at).reading.drawbar_pull,
+            RollingWheel(smooth(), soil, {}).roll(at).reading.drawbar_pull);
 }
 
 // Ground that gives way by less than the lugs are high holds the tread base up.
@@ -103,8 +107,9 @@ TEST(LugThrust, OnHardGroundTheTreadBaseStaysAbove) {
   SoilValues hard = sand();
   hard.k_phi *= 1e4;
   const EffectList tips = make_effects({{"lug_thrust", "tips", {{"lambda", 1.0}}}});
-  const double height = 0.05 * radius,
-               sinkage = RollingWheel(smooth(), hard, tips).roll(driven(800, 0.2)).reading.sinkage;
+  Tire lugged = smooth();
+  const double height = lugged.lugs.height = 0.05 * radius,
+               sinkage = RollingWheel(lugged, hard, tips).roll(driven(800, 0.2)).reading.sinkage;
   EXPECT_LT(sinkage, 0.0);
   EXPECT_GT(sinkage, -height);
 }

@@ -101,7 +101,9 @@ drive:
 )";
 
 TEST(VehicleCommand, StopsAtCtrlC) {
-  const Outcome r = soilbin("vehicle tractor --slope 5deg", "timeout --preserve-status -s INT 2 ");
+  const Scratch scratch;  // a map of minutes
+  const Outcome r = soilbin("vehicle tractor --map '" + (scratch / "map.csv").string() + "' --samples 500",
+                            "timeout --preserve-status -s INT 2 ");
   EXPECT_EQ(r.status, 130);
   EXPECT_EQ(r.out, "");
   EXPECT_THAT(r.err, HasSubstr("soilbin: stopped"));
