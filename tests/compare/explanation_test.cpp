@@ -43,7 +43,7 @@ TEST(Explanation, TellsTheStressesThatAct) {
 // is what stands behind them.
 TEST(Explanation, ItsNumbersGiveItsSinkageWhateverCircleEffectsLeave) {
   Scenario scenario = test::wheel_on_sand();
-  scenario.tire.inflation_pressure = 20e3;
+  scenario.tire.inflation_pressure = 20e3, scenario.tire.lugs.height = 5e-3;
   for (const EffectChoice& effect :
        {EffectChoice{"lug_thrust", "tips", {{"lambda", 1.0}}}, EffectChoice{"lug_thrust", "shear_radius", {}},
         EffectChoice{"tire_flexibility", "substitute_circle", {}}}) {
