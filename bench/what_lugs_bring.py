@@ -18,7 +18,7 @@ import numpy as np
 import soilbin
 from soilbin.bekker_wong import BekkerWong
 
-FORMS = ("passive_blade", "shear_radius_own_slip", "side_factors", "free_blade", "level_blade")
+FORMS = ("passive_blade", "shear_radius_own_slip", "side_factors", "free_blade", "level_blade", "tips")
 RECORDED = Path(__file__).parent.parent / "cases/studies/recorded"
 PAIRS = [[RECORDED / f"heavy-{tire}-{grains}.json" for tire in ("lugged", "smooth")] for grains in ("incline", "17mm")]
 HALF = RECORDED / "heavy-half-lugged-incline.json"

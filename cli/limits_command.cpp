@@ -38,7 +38,12 @@ int limits(const Question& inputs, const LimitsOptions& options, const Session& 
   std::vector<compare::ModelAnswers> doubtful = at_limits;
   for (compare::ModelAnswers& one : compare::answers_below_no_slip(question, answers))
     doubtful.push_back(std::move(one));
-  return publish(report, options.outputs, joined_doubts(std::move(notes), question, doubtful), session).status(done);
+  notes = joined_doubts(std::move(notes), question, doubtful);
+  if (answers.size() == 1)
+    compare::append(notes, compare::doubts_of_climb(notes, "the wheel", answers.front().steepest, [&] {
+                      return compare::steepest_slope(compare::as_in_grains(question));
+                    }));
+  return publish(report, options.outputs, notes, session).status(done);
 }
 
 }  // namespace

@@ -29,8 +29,9 @@ enum class DoubtKind {
   // an answer
   no_solution, standing_wheel, power_from_nothing, unusual_ground_pressure, slides_across, settles_too_deep,
   deep_sinkage, bin_floor, short_contact, large_deflection, beyond_deflections, flattens, pull_without_slip,
-  drives_without_slip, slips_little, slope_slides, heavy_and_lugged, heavy_and_smooth, carried_beyond_grains,
-  sinkage_in_rut, beyond_learned, errors_left_out,
+  drives_without_slip, slips_little, slope_slides, heavy_and_lugged, heavy_and_smooth, heavy_climb, travel_not_decided,
+  carried_beyond_grains,
+  sinkage_in_rut, beyond_learned, errors_left_out, without_deviations,
   // no influence
   lugs_ignored, lug_count_ignored, lug_thickness_ignored, lug_pattern_ignored, lug_angle_ignored, inflation_ignored,
   inflation_ignored_by_grains, carcass_ignored, carcass_ignored_by_grains, deflection_ignored,

@@ -113,6 +113,20 @@ Doubts slope_slides(const Scenario& scenario, const OperatingCondition& at) {
   return {Doubt{DoubtKind::slope_slides, {*slides / degree}, at}};
 }
 
+bool has_effect(const Scenario& scenario, std::string_view id) {
+  return std::ranges::find(scenario.effects, id, &EffectChoice::id) != scenario.effects.end();
+}
+
+/// A soil none of whose values has a standard deviation: then ± is that of c1 and c2 alone.
+Doubts without_deviations(const Case& question) {
+  const std::optional<SemiEmpiricalSoil>& soil = question.scenario.soil.semi_empirical;
+  if (!soil || soil->assumed_sd || question.on_command_line.contains("no_assumed_sd")) return {};
+  for (const Estimate& value :
+       {soil->exponent, soil->k_c, soil->k_phi, soil->cohesion, soil->friction_angle, soil->shear_modulus})
+    if (value.std_error > 0.0) return {};
+  return {Doubt{DoubtKind::without_deviations}};
+}
+
 bool carries_soil_along(const std::vector<EffectChoice>& effects) {
   return std::ranges::any_of(effects, [](const EffectChoice& effect) {
     const bekker_wong::EffectForm& form = bekker_wong::find_form(effect);
@@ -120,23 +134,40 @@ bool carries_soil_along(const std::vector<EffectChoice>& effects) {
   });
 }
 
-/// A wheel that sinks deep for its width: soil fails sideways under it too.
+constexpr double deepest_grains = 0.18;  // of the width: 110 mm of 600 mm, the deepest of heavy-lugged-cullinan
+
+/// The sinkage as a share of the width, of a wheel that sinks deep for it: soil fails sideways under it too. None of
+/// one that does not.
+std::optional<double> sinks_beyond_grains(const TractionResult& result, const Tire& tire) {
+  const double share = result.sinkage.value / tire.width;
+  return share > 1.5 * deepest_grains ? std::optional(share) : std::nullopt;
+}
+
 Doubts carried_beyond_grains(const Scenario& scenario, const Answer& answer) {
-  constexpr double known = 0.18;  // of the width: 110 mm of 600 mm, the deepest of heavy-lugged-cullinan
-  const double share = answer.result->sinkage.value / scenario.tire.width;
-  if (!(share > 1.5 * known) || !carries_soil_along(scenario.effects)) return {};
-  return {Doubt{DoubtKind::carried_beyond_grains, {known, share}, answer.at}};
+  const std::optional<double> share = sinks_beyond_grains(*answer.result, scenario.tire);
+  if (!share || !carries_soil_along(scenario.effects)) return {};
+  return {Doubt{DoubtKind::carried_beyond_grains, {deepest_grains, *share}, answer.at}};
 }
 
 /// A wheel like those of the failure map heavy-lugged-incline (docs/lab/failure-maps.md): 10 to 40 kN on a tire of 0.7
 /// m radius with lugs of 45 mm, on sand of 3.9 kPa and 31 deg; what is like it is chosen. With soil carried along the
-/// pull is near that of grains.
+/// pull is near that of grains, and is told beside the answer's.
 Doubts heavy_on_sand(const Scenario& scenario, const Answer& answer) {
   if (carries_soil_along(scenario.effects)) return {};
   const bekker_wong::SoilValues soil = bekker_wong::values_of(*scenario.soil.semi_empirical);
   const bool frictional = soil.cohesion < 5e3 && soil.friction_angle > 0.35;
   if (answer.at.load < 10e3 || !frictional || !(answer.result->drawbar_pull.value > 0.0)) return {};
-  return {Doubt{scenario.tire.lugs.height > 0.0 ? DoubtKind::heavy_and_lugged : DoubtKind::heavy_and_smooth}};
+  const bekker_wong::BekkerWong model({.errors = false, .patch = false});
+  OperatingCondition rigid = answer.at;
+  rigid.inflation_pressure.reset();
+  const Answer nearer = ask(model, as_in_grains(scenario), rigid);
+  Doubt doubt{
+      is_lugged(scenario.tire) ? DoubtKind::heavy_and_lugged : DoubtKind::heavy_and_smooth, {"", "", ""}, answer.at};
+  if (nearer.result) {
+    doubt.says[0] = nearer.result->drawbar_pull.value, doubt.says[1] = answer.result->drawbar_pull.value;
+    if (const auto share = sinks_beyond_grains(*nearer.result, scenario.tire)) doubt.says[2] = *share;
+  }
+  return {doubt};
 }
 
 /// A sinkage that is not the depth of the rut.
@@ -168,7 +199,7 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Doubts& a
   const double arc = bekker_wong::contact_length(r.sinkage.value, tire.radius);
   append(all, too_steep_across(scenario, answer, std::fmax(length, arc)));
   append(all, too_deep(scenario, answer));
-  if (scenario.bin && r.sinkage.value > 0.5 * scenario.bin->depth)
+  if (scenario.bin && r.sinkage.value > 0.5 * scenario.bin->depth && !has_effect(scenario, "hard_layer"))
     all.push_back({DoubtKind::bin_floor, {100 * r.sinkage.value / scenario.bin->depth}, at});
   const double modulus = scenario.soil.semi_empirical->shear_modulus.value;
   if (modulus > length) all.push_back({DoubtKind::short_contact, {1000 * modulus, 1000 * length}, at});
@@ -305,6 +336,7 @@ Doubts doubts_but_unused_inputs(const Case& question, const std::vector<ModelAns
     if (asks(question.study, ModelKind::bekker_wong)) all.push_back({DoubtKind::cone_index_beside_bekker});
   }
   append(all, doubts_of_speeds(question));
+  if (asks(question.study, ModelKind::bekker_wong)) append(all, without_deviations(question));
   append(all, doubts_of_answers(scenario, study, open));
   if (open || asks(question.study, ModelKind::dem))
     append(all, grain_doubts(scenario, question.study.conditions, study));
@@ -342,7 +374,7 @@ Doubts doubts_of(const Campaign& campaign, const Case& question, const std::vect
                  Answered answered, NextIs next) {
   Doubts all = doubts_but_unused_inputs(question, study, answered);
   if (next == NextIs::nothing) {
-    Doubts unused = unused_inputs(question);
+    Doubts unused = unused_inputs(question, EffectsAre::of_a_campaign);
     std::erase_if(unused, only_tells_the_row);
     append(all, std::move(unused));
   }
@@ -396,6 +428,35 @@ std::vector<std::string> remarks_on(const Campaign& campaign, const Scenario& as
       remark += (remark.empty() ? "" : "; ") + as_remark({one});
     }
   return remarks;
+}
+
+Scenario as_in_grains(Scenario scenario) {
+  std::erase_if(scenario.effects, [](const EffectChoice& effect) {
+    return effect.id == "tire_flexibility" || effect.id == "lug_thrust" || effect.id == "slip_sinkage" ||
+           effect.id == "shear_hump";
+  });
+  scenario.tire.inflation_pressure.reset(), scenario.tire.deflection.reset();
+  if (is_lugged(scenario.tire)) scenario.effects.push_back({"lug_thrust", "tips", {}});
+  scenario.effects.push_back({"shear_hump", "carried", {}});
+  scenario.effects.push_back({"slip_sinkage", "reece", {{"h", 0.1}}});
+  return scenario;
+}
+
+Case as_in_grains(Case question) {
+  ModelChoice& model = question.study.models.front();
+  question.scenario = as_in_grains(seen_by(model, question.scenario));
+  model = {ModelKind::bekker_wong, std::move(question.scenario.effects), ""};
+  question.scenario.effects.clear();
+  question.study.models.resize(1);
+  for (OperatingCondition& at : question.study.conditions) at.inflation_pressure.reset();
+  return question;
+}
+
+Doubts doubts_of_climb(const Doubts& told, const char* who, std::optional<double> steepest,
+                       const std::function<std::optional<double>()>& as_in_grains) {
+  if (!steepest || (!tell_of(told, DoubtKind::heavy_and_lugged) && !tell_of(told, DoubtKind::heavy_and_smooth)))
+    return {};
+  return {Doubt{DoubtKind::heavy_climb, {who, as_in_grains().value_or(0.0) / degree, *steepest / degree}}};
 }
 
 Doubts doubts(const Case& question, const std::vector<ModelAnswers>& study, const Doubts& of_models) {

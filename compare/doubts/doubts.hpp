@@ -60,6 +60,17 @@ struct PlateGroups;
 /// doubtful in their answers; told among the others.
 Doubts doubts(const Case& question, const std::vector<ModelAnswers>& study, const Doubts& of_models = {});
 
+/// The scenario with a rigid wheel and with what Wong and Reece lack under a heavy tire on sand, in the forms and with
+/// the values that its doubts name.
+Scenario as_in_grains(Scenario scenario);
+/// The question of that wheel, asked of the analytic model alone.
+Case as_in_grains(Case question);
+
+/// A steepest slope [rad] beside the one as_in_grains (none: not even level ground), where doubts tell of a heavy tire;
+/// `who` climbs: "the wheel".
+Doubts doubts_of_climb(const Doubts& told, const char* who, std::optional<double> steepest,
+                       const std::function<std::optional<double>()>& as_in_grains);
+
 /// The question's tire, for the first line of an answer; says where its lugs change nothing.
 std::string tire_in_words(const Case& question);
 
@@ -131,11 +142,14 @@ using AskAgain = std::function<std::vector<Answer>(const std::vector<OperatingCo
 /// judged with that put right. Of more than 200 runs some are looked at, evenly.
 Doubts column_doubts(const Campaign& campaign, const std::vector<Answer>& answers, const AskAgain& ask);
 
+/// Where a person names the effects of a model.
+enum class EffectsAre { flags, of_a_drive, of_a_campaign };
+
 /// Inputs of a question that change no digit of any of its models' answers: what a case declares and its analytic
 /// models, or its grains, hear nothing of, and the effects that it switches on whose condition it gives nowhere. Each
 /// says first the key of a tire, a condition or a bin: "lugs", "lugs.count", "inflation_pressure", "pass", "bin"; but
 /// bin_depth_taken, which says the effect.
-Doubts unused_inputs(const Case& question);
+Doubts unused_inputs(const Case& question, EffectsAre named = EffectsAre::flags);
 
 /// Channels of a run made of samples that are not steady; of all runs of a log, by run and lines.
 Doubts doubts(const LoggedRun& run);

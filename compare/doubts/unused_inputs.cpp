@@ -151,7 +151,8 @@ bool asked_by_drive(const Case& question) {
 
 /// The effects of the catalogue that hear of this, as a flag takes them: "--effect soil_gradient or bed_tilt:curved",
 /// with their forms where some don't, or where they go in a drive; where none does, how grains are asked.
-std::string hearing_effects(const std::string& key, bool of_drive) {
+std::string hearing_effects(const std::string& key, EffectsAre named) {
+  const bool of_drive = named == EffectsAre::of_a_drive;
   std::vector<std::string> names;
   for (const std::string& id : bekker_wong::effect_ids()) {
     std::vector<std::string> forms;
@@ -167,6 +168,7 @@ std::string hearing_effects(const std::string& key, bool of_drive) {
   }
   if (names.empty()) return "--model dem";
   const std::string all = fmt::format("{}", fmt::join(names, " or "));
+  if (named == EffectsAre::of_a_campaign) return all + " to 'model: {effects: [...]}' in campaign.yaml";
   return of_drive ? all + " to the drive's effects" : "--effect " + all;
 }
 
@@ -178,7 +180,7 @@ bool hears(const ModelChoice& choice, const Declared& declared) {
 
 /// That a thing which is given changes nothing of the analytic models or, where these hear or aren't asked, of grains,
 /// of resistive force theory or of cone_index.
-Doubts doubts_of_unused(const std::vector<ModelChoice>& models, const Declared& declared, bool of_drive) {
+Doubts doubts_of_unused(const std::vector<ModelChoice>& models, const Declared& declared, EffectsAre named) {
   const auto asked = [&](ModelKind kind) {
     return std::ranges::any_of(models, [&](auto& m) { return m.model == kind; });
   };
@@ -190,7 +192,7 @@ Doubts doubts_of_unused(const std::vector<ModelChoice>& models, const Declared& 
     by_others.push_back({DoubtKind::ignored_by_cone_index, {declared.of_cone}});
   if (!by_others.empty() && !wheel) return by_others;
   if (wheel && std::none_of(models.begin(), models.end(), [&](const ModelChoice& m) { return hears(m, declared); }))
-    return {Doubt{*declared.of_wheel, {declared.key, hearing_effects(declared.key, of_drive)}}};
+    return {Doubt{*declared.of_wheel, {declared.key, hearing_effects(declared.key, named)}}};
   if (!grains || !declared.of_grains) return {};
   return {Doubt{*declared.of_grains, {declared.key}}};
 }
@@ -221,14 +223,15 @@ void add_depths_of_the_bin(const Case& question, Doubts& all) {
 
 }  // namespace
 
-Doubts unused_inputs(const Case& question) {
+Doubts unused_inputs(const Case& question, EffectsAre named) {
+  if (asked_by_drive(question)) named = EffectsAre::of_a_drive;
   Doubts all;
   const std::vector<ModelChoice>& models = question.study.models;
   if (question.study.conditions.empty()) return all;
   for (const Declared& declared : declarable()) {
     if (declared.key.starts_with("lugs.") && tell_of(all, DoubtKind::lugs_ignored)) continue;  // says it of all of them
     if (declared.given(question)) {
-      append(all, doubts_of_unused(models, declared, asked_by_drive(question)));
+      append(all, doubts_of_unused(models, declared, named));
     } else if (declared.needs) {
       for (const std::string& id : in_need(models, declared)) all.push_back({*declared.needs, {declared.key, id}});
     }

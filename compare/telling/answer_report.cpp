@@ -134,6 +134,8 @@ std::string errors_in_words(const Scenario& asked) {
          together;
 }
 
+bool known(const std::optional<Estimate>& value) { return value && value->std_error > 0.0; }
+
 std::string errors_in_words(const Case& question) {
   const auto analytic = std::ranges::find(question.study.models, ModelKind::bekker_wong, &ModelChoice::model);
   const bool has_analytic = analytic != question.study.models.end();
@@ -145,8 +147,9 @@ std::string errors_in_words(const Case& question) {
   const Soil& soil = question.scenario.soil;
   add(ModelKind::rft, "Resistive force theory", "the standard deviations of xi_n and surface friction.");
   add(ModelKind::cone_index, "Cone index",
-      fmt::format("the standard deviation of the {}; how far tires scatter about the relation is not in it.",
-                  soil.cone_index ? "cone index" : "cone index gradient"));
+      fmt::format("the standard deviation of the {}{}; how far tires scatter about the relation is not in it.",
+                  soil.cone_index ? "cone index" : "cone index gradient",
+                  known(soil.cone_index) || known(soil.cone_index_gradient) ? "" : ", which has none"));
   return text;
 }
 
@@ -189,6 +192,7 @@ std::vector<PrintedValue> printed_values(const TractionResult& r, ForcesIn told)
   std::vector<PrintedValue> all;
   for (const ChannelView& channel : channel_views) {
     const bool force = channel.unit == "N";
+    if (std::isnan((r.*channel.predicted).value)) continue;  // the cone index knows no sinkage
     all.push_back({capital(std::string(channel.title)),
                    number(r.*channel.predicted, force ? per_newton : channel.per_si),
                    force ? unit : std::string(channel.unit)});
@@ -237,7 +241,7 @@ std::vector<ReportPart> answer_parts(const Tire& tire, const ModelAnswers& model
   for (const PrintedValue& one : printed_values(*answer.result))
     values.all.emplace_back(one.name, one.value + (one.unit.empty() ? "" : " " + one.unit));
   if (const auto taken = power_of(tire, *answer.result))
-    values.all.emplace_back("Power", fmt::format("{} W at {} m/s, {} J a metre", number(taken->power),
+    values.all.emplace_back("Power", fmt::format("{} W at {} m/s, {} J/m", number(taken->power),
                                                  number(answer.at.speed, 3), number(taken->energy)));
   parts.push_back({std::move(values)});
   parts.push_back({Sentences(why_it_pulls_without_slip({model.choice, {answer}}))});

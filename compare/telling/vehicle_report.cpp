@@ -116,7 +116,7 @@ std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
     else if (!answers.holds_speed())
       said.push_back({capital(too_fast_in_words(answers)), capital(travel_limit_in_words(*answers.not_held)) + "."});
     said.push_back({answers.holds_speed() ? "It travels" : "At that speed",
-                    fmt::format("The drive line slips by {} %; the wheels take {} {}W, {} {}J a metre.",
+                    fmt::format("The drive line slips by {} %; the wheels take {} {}W, {} {}J/m.",
                                 number({v.slip, told_error(answers.errors.slip)}, 100),
                                 number({v.power.into_wheels, told_error(answers.errors.into_wheels)}, 1 / unit), prefix,
                                 number(v.power.into_wheels / v.at.speed / unit, 3), prefix)});
@@ -217,12 +217,15 @@ Table wheels_table(const VehicleAnswers& answers) {
 }
 
 Table power_table(const SteadyVehicle& v) {
-  Table table{"Where the power goes", {"part", "W", "J a metre"}};
-  const std::pair<const char*, double> parts[] = {{"into the wheels", v.power.into_wheels},
-                                                  {"drawbar", v.power.drawbar},
-                                                  {"climbing", v.power.climbing},
-                                                  {"slip", v.power.slip_loss},
-                                                  {"sinkage and other resistance of the soil", v.power.soil_loss}};
+  Table table{"Where the power goes", {"part", "W", "J/m"}};
+  std::vector<std::pair<const char*, double>> parts = {
+      {"into the wheels", v.power.into_wheels}, {"drawbar", v.power.drawbar}, {"climbing", v.power.climbing}};
+  if (v.power.slip_loss < 0.0) {  // wheels of a model that need no slip
+    parts.emplace_back("slip, sinkage and other resistance of the soil", v.power.slip_loss + v.power.soil_loss);
+  } else {
+    parts.emplace_back("slip", v.power.slip_loss);
+    parts.emplace_back("sinkage and other resistance of the soil", v.power.soil_loss);
+  }
   const double nothing = 1e-9 * std::abs(v.power.into_wheels);  // what the balance leaves
   for (const auto& [name, power] : parts) {
     const double watt = std::abs(power) > nothing ? power : 0.0;
@@ -232,7 +235,7 @@ Table power_table(const SteadyVehicle& v) {
 }
 
 Table pulls_table(const VehicleAnswers& answers) {
-  Table table{"Drawbar pull against slip", {"slip [%]", "pull [N]", "into the wheels [J a metre]", "deepest [mm]"}};
+  Table table{"Drawbar pull against slip", {"slip [%]", "pull [N]", "into the wheels [J/m]", "deepest [mm]"}};
   for (const VehiclePullRow& row : answers.pulls) {
     if (!row.vehicle) {
       table.add({number(100 * row.slip), "-", "-", "-"});
@@ -258,15 +261,9 @@ std::vector<std::string> vehicle_remarks(const VehicleAnswers& answers) {
         "Wheels in ruts roll as on undisturbed soil: no effect reads the pass. Add multipass to the effects.");
   if (ruts && read)
     said.emplace_back(
-        "In a rut the forms reload of multipass take the load of the heaviest wheel before, slip_hardening the slip of "
-        "the last one; its other forms know the number of the pass alone.");
-  const std::optional<double> slides =
-      bekker_wong::sliding_slope(answers.question.soil, answers.question.axles.front().tire);
-  if (slides && answers.in_full &&
-      std::ranges::any_of(std::array{answers.up, answers.down, answers.across},
-                          [&](const VehicleLimit& limit) { return limit.angle && limit.angle->value > *slides; }))
-    said.push_back(fmt::format(
-        "From {:.3g} deg on this soil slides by itself (c, phi, at a depth of a wheel's radius).", *slides / degree));
+        "A wheel behind another rolls in its rut. The forms reload and slip_hardening of multipass know what went "
+        "before "
+        "(the largest load; the slip of the last wheel), the others how many wheels did.");
   if (std::ranges::any_of(answers.wheels,
                           [](const VehicleWheel& wheel) { return bekker_wong::is_flexible(wheel.scenario.effects); }))
     said.emplace_back(carcass_without_loss);

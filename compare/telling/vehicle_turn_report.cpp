@@ -142,7 +142,7 @@ std::vector<VehicleTurn> shown_turns(const TurnAnswers& answers) {
 
 Table turns_table(const TurnAnswers& answers) {
   const bool steered = is_steered_vehicle(answers.question);
-  Table table{"Ever tighter turns", {"radius [m]", "slip [%]", "into the wheels [J a metre]", "points inward [deg]"}};
+  Table table{"Ever tighter turns", {"radius [m]", "slip [%]", "into the wheels [J/m]", "points inward [deg]"}};
   if (steered) table.header.insert(table.header.begin() + 1, "steering [deg]");
   for (const VehicleTurn& turn : shown_turns(answers)) {
     const SteadyVehicle& v = turn.vehicle;
@@ -167,7 +167,7 @@ Sheet turns_sheet(const TurnAnswers& answers) {
     turns.y.push_back(steered ? std::abs(v.steering) / degree : 100 * v.slip);
   }
   sheet.plots.push_back({steered ? "Steering [deg]" : "Slip [%]", radius, {}, {std::move(turns)}});
-  sheet.plots.push_back({"Into the wheels [J a metre]", radius, {}, {std::move(resists)}});
+  sheet.plots.push_back({"Into the wheels [J/m]", radius, {}, {std::move(resists)}});
   return sheet;
 }
 

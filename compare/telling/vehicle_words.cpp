@@ -20,8 +20,8 @@ std::string wheel_called(const std::vector<VehicleWheel>& wheels, const VehicleF
 }
 
 const char* failure_word(GaveOut why) {
-  constexpr std::array words = {"wheel",     "pull",   "torque",  "hold",
-                                "tips_over", "slides", "backward"};  // in the order of its values
+  constexpr std::array words = {"wheel",     "pull",   "torque",   "hold",
+                                "tips_over", "slides", "backward", "soil_slides"};  // in the order of its values
   return words[static_cast<std::size_t>(why)];
 }
 
@@ -33,12 +33,11 @@ std::string failure_in_words(const std::vector<VehicleWheel>& wheels, const Vehi
     case GaveOut::wheel:
       return fmt::format("the wheel '{}' gives out: {}", wheel, failure.words);
     case GaveOut::pull:
-      return fmt::format("at every slip its wheels pull too little; the weakest for its load is '{}'", wheel);
+      return fmt::format("its wheels pull too little at any slip; '{}' pulls the least for its load", wheel);
     case GaveOut::torque:
-      return fmt::format("its motors give too little torque at every slip; the weakest wheel for its load is '{}'",
-                         wheel);
+      return fmt::format("its motors give too little torque at any slip; '{}' pulls the least for its load", wheel);
     case GaveOut::hold:
-      return fmt::format("the drive line does not hold it at any slip; the weakest wheel for its load is '{}'", wheel);
+      return fmt::format("braked by its drive line it runs away at any slip; '{}' holds the least for its load", wheel);
     case GaveOut::tips_over:
       return "it tips over";
     case GaveOut::slides:
@@ -46,6 +45,8 @@ std::string failure_in_words(const std::vector<VehicleWheel>& wheels, const Vehi
     case GaveOut::backward:
       return failure.wheel ? fmt::format("the wheel '{}' would have to roll backward or straight across", wheel)
                            : "the centre of the turn would lie between its wheels";
+    case GaveOut::soil_slides:
+      return "from there on the soil slides by itself (c, phi, at a depth of a wheel's radius)";
   }
   return "";
 }

@@ -59,13 +59,14 @@ std::vector<double> axle_loads(const std::vector<CarryingAxle>& axles, double no
 
 /// What ended a vehicle's balance.
 enum class GaveOut {
-  wheel,      ///< the model has no answer for one of its wheels
-  pull,       ///< all its wheels together pull less than is asked of them, at every slip
-  torque,     ///< so do they where motors give no more
-  hold,       ///< braked by its drive line it runs away downhill, at every slip
-  tips_over,  ///< it stands on the wheels of one side alone
-  slides,     ///< nothing balances the forces across its travel
-  backward,   ///< a wheel of a turn would roll backward
+  wheel,        ///< the model has no answer for one of its wheels
+  pull,         ///< all its wheels together pull less than is asked of them, at every slip
+  torque,       ///< so do they where motors give no more
+  hold,         ///< braked by its drive line it runs away downhill, at every slip
+  tips_over,    ///< it stands on the wheels of one side alone
+  slides,       ///< nothing balances the forces across its travel
+  backward,     ///< a wheel of a turn would roll backward
+  soil_slides,  ///< the slope itself comes down, vehicle or not
 };
 
 /// There is no steady vehicle.

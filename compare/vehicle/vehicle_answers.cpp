@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/gsl.hpp"
 #include "compare/design/factor.hpp"
 #include "compare/vehicle/vehicle.hpp"
@@ -127,6 +128,7 @@ class SteepestSlope {
   VehicleLimit find() {
     if (!starts()) return limit_;
     close_in();
+    if (slides_ && low_ > *slides_) return end_where_the_soil_slides();
     if (high_ == steepest_asked) {
       limit_.on_all = true;
       return limit_;
@@ -253,6 +255,13 @@ class SteepestSlope {
     limit_.angle = Estimate{low_, not_a_number};
   }
 
+  VehicleLimit end_where_the_soil_slides() {
+    limit_.angle = Estimate{*slides_, not_a_number};
+    limit_.slip = travels(*slides_) ? vehicles_.pulling(on_slope(*slides_)).slip : not_a_number;
+    limit_.beyond = {GaveOut::soil_slides};
+    return limit_;
+  }
+
   /// Slope, slip and what ends it there, where that is the pull with an error.
   void tell_end() {
     const SteadyVehicle last = vehicles_.at_most(on_slope(low_), braked_, best_slip_);
@@ -292,6 +301,8 @@ class SteepestSlope {
   const bool braked_ = way_ == SlopeWay::down;
   const double sign_ = braked_ ? -1.0 : 1.0;
   const double none_ = -vehicles_.weight();  ///< what is spare on a slope without a balance
+  /// From which slope on the soil slides by itself [rad]; none where it stands at any.
+  const std::optional<double> slides_ = bekker_wong::sliding_slope(question_.soil, question_.axles.front().tire);
   VehicleLimit limit_{};
   double low_ = 0.0, high_ = steepest_asked;  ///< slopes on which it goes and does not [rad]
   double at_low_ = 0.0, at_high_ = none_;     ///< what is spare on them [N]

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "bekker_wong/model.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/vehicle/steady_vehicle.hpp"
 #include "scenario/unit.hpp"
@@ -75,6 +76,36 @@ Doubts slips_little(const VehicleAnswers& answers, const Doubts& told) {
   return {Doubt{DoubtKind::slips_little, {100 * most}}};
 }
 
+std::optional<double> steepness(const VehicleLimit& limit) {
+  return limit.angle ? std::optional(limit.angle->value) : std::nullopt;
+}
+
+/// A slope so near the steepest one that the soil's errors decide whether the vehicle travels.
+Doubts hardly_decided(const VehicleAnswers& answers) {
+  const VehicleCondition& at = answers.question.condition;
+  if (!answers.up.angle || at.cross_slope != 0.0) return {};
+  const auto [steepest, error] = *answers.up.angle;
+  if (!(std::abs(steepest - at.slope) < error)) return {};
+  return {Doubt{DoubtKind::travel_not_decided, {steepest / degree, error / degree, at.slope / degree}}};
+}
+
+/// The vehicle in its condition; where it has no balance there, at the slip that pulls most; nullptr without any.
+const SteadyVehicle* state_to_doubt(const VehicleAnswers& answers) {
+  if (answers.steady) return &*answers.steady;
+  const VehiclePullRow* most = nullptr;
+  for (const VehiclePullRow& row : answers.pulls)
+    if (row.vehicle && (most == nullptr || row.vehicle->pull > most->vehicle->pull)) most = &row;
+  return most != nullptr ? &*most->vehicle : nullptr;
+}
+
+/// The steepest slope straight up [rad] on wheels that are as_in_grains.
+std::optional<double> climb_as_in_grains(const VehicleAnswers& answers) {
+  std::vector<VehicleWheel> wheels = answers.wheels;
+  for (VehicleWheel& wheel : wheels) wheel.scenario = as_in_grains(wheel.scenario);
+  return steepness(
+      steepest_climb(answers.question, wheels, bekker_wong::BekkerWong({.errors = false, .patch = false})));
+}
+
 }  // namespace
 
 Doubts doubts(const VehicleCase& vehicle) {
@@ -88,10 +119,11 @@ Doubts doubts(const VehicleCase& vehicle) {
 Doubts doubts_about(const VehicleAnswers& answers, Doubts notes) {
   append(notes, doubts(answers.question));
   std::set<std::size_t> axles;
-  for (std::size_t i = 0; i < answers.wheels.size(); ++i) {
+  const SteadyVehicle* state = state_to_doubt(answers);
+  for (std::size_t i = 0; state != nullptr && i < answers.wheels.size(); ++i) {
     const VehicleWheel& wheel = answers.wheels[i];
-    if (!answers.steady || answers.steady->wheels[i].lifted || !axles.insert(wheel.axle).second) continue;
-    const TractionResult& result = answers.steady->wheels[i].result;
+    if (state->wheels[i].lifted || !axles.insert(wheel.axle).second) continue;
+    const TractionResult& result = state->wheels[i].result;
     Case question;
     question.name = wheel.name, question.scenario = wheel.scenario;
     question.scenario.effects.clear();
@@ -101,6 +133,9 @@ Doubts doubts_about(const VehicleAnswers& answers, Doubts notes) {
     append(notes, doubts(question, {{question.study.models.front(), {{result.at, result, ""}}}}));
   }
   append(notes, slips_little(answers, notes));
+  append(notes, hardly_decided(answers));
+  append(notes,
+         doubts_of_climb(notes, "the vehicle", steepness(answers.up), [&] { return climb_as_in_grains(answers); }));
   std::erase_if(notes, [](const Doubt& doubt) {
     // Wheels in front have no rut, the speed makes the power, gravity the loads; axles tell the pass.
     return doubt.kind == DoubtKind::effect_without_pass || doubt.kind == DoubtKind::speed_ignored ||

@@ -163,13 +163,18 @@ TEST(Compare, ItsTableFitsATerminalOf120Columns) {
 }
 
 // docs/lab/failure-maps.md on the heavy lugged tire: at every condition the analytic pull is farther off than the
-// grains' own error of resolution, two of its standard errors included, so the difference is the model's.
+// grains' own error of resolution, two of its standard errors included, so the difference is the model's. With what it
+// lacks, no difference of pull or torque is left, level, uphill, across the slope and at yaw.
 TEST(Compare, JudgesAHeavyLuggedTireBeyondTheErrorOfItsGrains) {
   const nlohmann::json comparison = soilbin("compare heavy-lugged-incline --recorded --no-loop --json").json();
   const auto& points = comparison["sides"].back()["points"];
   ASSERT_EQ(points.size(), 8U);
   int judged = 0;
   for (const auto& row : comparison["rows"]) {
+    if (row["side"].get<std::string>().find("shear_hump") != std::string::npos) {
+      if (row["channel"] == "drawbar_pull" || row["channel"] == "torque") EXPECT_NE(row["finding"], "difference");
+      continue;
+    }
     if (row["channel"] != "drawbar_pull") continue;
     const auto& error = points.at(row["condition"].get<std::size_t>())["resolution_error"];
     EXPECT_EQ(error["from"], "twin");

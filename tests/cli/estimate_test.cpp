@@ -37,8 +37,7 @@ TEST(Estimate, PowerAndEnergyAreThoseOfTorqueAndRotation) {
   EXPECT_NEAR(row["energy_per_metre"].get<double>(), energy, 1e-12 * energy);
   EXPECT_NEAR(row["power"].get<double>(), 0.5 * energy, 1e-12 * energy);
   EXPECT_NEAR(row["tractive_efficiency"].get<double>(), row["drawbar_pull"].get<double>() / energy, 1e-12);
-  EXPECT_THAT(soilbin(asked).out,
-              ContainsRegex("Power +[0-9.]+ ± [0-9.]+ W at 0.500 m/s, [0-9.]+ ± [0-9.]+ J a metre"));
+  EXPECT_THAT(soilbin(asked).out, ContainsRegex("Power +[0-9.]+ ± [0-9.]+ W at 0.500 m/s, [0-9.]+ ± [0-9.]+ J/m"));
   EXPECT_THAT(soilbin("estimate " + wheel + "--slip 100%").out, testing::Not(HasSubstr("Power")));
 }
 

@@ -123,7 +123,7 @@ class ThePage(VehiclePage):
     def test_5_what_does_not_travel_says_why_and_is_drawn_faint(self):
         self.move("slope", 40, "box")
         self.assertIn("It does not travel", self.now())
-        self.assertIn("at every slip its wheels pull too little", self.js("document.getElementById('sentences').textContent"))
+        self.assertIn("its wheels pull too little at any slip", self.js("document.getElementById('sentences').textContent"))
         self.assertEqual(self.js("document.querySelectorAll('#ground svg.ghost').length"), 1)
         self.assertTrue(self.js("document.getElementById('say').textContent") == "" or
                         not self.js("soilbin.live.refused"))
