@@ -164,10 +164,12 @@ ToldScatter told_scatter(const std::vector<RecordedRun>& runs) {
 }
 
 RunScatter scatter_of_a_run(const Runs& runs, const ToldScatter& told, std::size_t channel) {
+  constexpr std::size_t enough = 5;  // packings, which know their scatter to a third
   const auto of = traction_channels[channel].predicted;
-  if (const double own = own_variance(runs, of); own > 0.0 || runs.size() < 2)
-    return {told[channel].factor * std::sqrt(own), told[channel].freedom};
-  return {scatter_between(runs, of), static_cast<double>(runs.size() - 1)};
+  const double own = told[channel].factor * std::sqrt(own_variance(runs, of));
+  const double between = runs.size() >= enough || !(own > 0.0) ? scatter_between(runs, of) : 0.0;
+  if (between > own) return {between, static_cast<double>(runs.size() - 1)};
+  return {own, told[channel].freedom};
 }
 
 namespace {

@@ -65,8 +65,8 @@ using ToldScatter = std::array<PackingScatter, traction_channels.size()>;
 ToldScatter told_scatter(const std::vector<RecordedRun>& runs);
 
 /// The standard deviation of one run about the mean of all that could have been made, and the degrees of freedom behind
-/// it: the root of own_variance times the factor; where runs state no error, what they scatter by. `runs`: of one
-/// condition, at least one, all with results.
+/// it: the root of own_variance times the factor, or what they scatter by where they state no error, or are five and
+/// more and that is larger. `runs`: of one condition, at least one, all with results.
 struct RunScatter {
   double deviation = 0.0, freedom = 0.0;
 };

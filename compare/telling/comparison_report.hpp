@@ -58,7 +58,7 @@ struct Clause {
 /// What every sentence, table and figure calls a side: "analytic wheel with slip sinkage". Data keep its label.
 std::string name_of(const Side& side);
 
-/// "analytic wheel less grains".
+/// "analytic wheel - grains".
 std::string less_in_words(const Comparison& comparison, const ComparedChannel& of);
 /// "grains has no result at 1 of 4 conditions (...)".
 std::string in_words(const Comparison& comparison, const NotCompared& gap);

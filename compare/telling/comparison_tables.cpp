@@ -90,7 +90,7 @@ std::string change_cell(const Comparison& comparison, const ComparedChannel& ask
 /// A condition a row: of each of the channels the baseline and the other sides' changes.
 Table matrix_table(const Comparison& comparison, std::size_t baseline, const std::vector<std::size_t>& channels) {
   const std::vector<Side>& sides = comparison.sides;
-  Table table{fmt::format("Baseline: {}. Change: model less baseline; * significant", name_of(sides[baseline])),
+  Table table{fmt::format("Baseline: {}. Change: model - baseline; * significant", name_of(sides[baseline])),
               {"condition"},
               {true}};
   for (const std::size_t c : channels) {

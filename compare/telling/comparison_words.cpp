@@ -272,7 +272,7 @@ const Difference* widest_difference(const Comparison& comparison) {
 std::string name_of(const Side& side) { return model_in_words(side.label); }
 
 std::string less_in_words(const Comparison& comparison, const ComparedChannel& of) {
-  return name_of(comparison.sides[of.side]) + " less " + name_of(comparison.sides[of.reference]);
+  return name_of(comparison.sides[of.side]) + " - " + name_of(comparison.sides[of.reference]);
 }
 
 std::string in_words(const Comparison& comparison, const NotCompared& gap) {

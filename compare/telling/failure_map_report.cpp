@@ -72,12 +72,12 @@ std::string from_that_of(ModelKind kind) {
                                         : "of that by resistive force theory";
 }
 
-/// "analytic less grains".
+/// "analytic - grains".
 std::string less_in_words(const InclineMap& map) {
   const auto one = [](ModelKind kind) {
     return kind == ModelKind::bekker_wong ? "analytic" : kind == ModelKind::dem ? "grains" : "resistive force theory";
   };
-  return fmt::format("{} less {}", one(map.of), one(map.against));
+  return fmt::format("{} - {}", one(map.of), one(map.against));
 }
 
 std::string judged_in_words(Judged judged) {

@@ -190,7 +190,7 @@ Table parameters_table(const LoopAnswer& answer) {
 }
 
 Table soil_table(const LoopAnswer& answer) {
-  MarkedTable table{"Soil values with and without the effects; bias: without less with",
+  MarkedTable table{"Soil values with and without the effects; bias: without - with",
                     {"value", "with", "without", "bias", "unit", "determined?"},
                     {true, false, false, false, true, true}};
   constexpr double hardly_less = 0.9;  // of the declared standard deviation: the data tell next to nothing
@@ -328,7 +328,7 @@ void add_main_figure(Report& report, const LoopAnswer& answer, const Variables& 
   if (curves.empty()) {
     if (variables->empty()) return;
     report.add(Figure([&answer, variables] { return gap_sheet(answer, variables->front()); },
-                      "Each run's measured value and the model after, both less the model before: where the two lie "
+                      "Each run's measured value and the model after, both minus the model before: where the two lie "
                       "together, the effects explain what was missing. " +
                           caption_of_models(answer)),
                Told::to_look_at);
@@ -378,7 +378,7 @@ void add_gaps(Report& report, const LoopAnswer& answer, const Variables& variabl
   for (const Covariate& x : *variables)
     choices.all.emplace_back(std::string(condition_view(x.name).title), [&answer, variables, &x] {
       return LoopParts{{Figure([&answer, variables, &x] { return gap_sheet(answer, x); },
-                               "Each run, less the model before. Runs of one setting are drawn side by side. " +
+                               "Each run minus the model before. Runs of one setting are drawn side by side. " +
                                    caption_of_models(answer))}};
     });
   report.add("What the base model misses, over each variable", std::move(choices), Told::to_look_at, "gaps");

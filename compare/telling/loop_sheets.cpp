@@ -217,7 +217,7 @@ Sheet gap_sheet(const LoopAnswer& answer, const Covariate& x) {
   for (int channel = 0; channel < channel_count; ++channel) {
     if (!has_cells(observations, channel)) continue;
     const double per_si = channel_views[channel].per_si;
-    Plot plot{heading(channel_views[channel]) + ", less model before", {heading(condition_view(x.name))}};
+    Plot plot{heading(channel_views[channel]) + " minus the model before", {heading(condition_view(x.name))}};
     Series measured{.label = "measured", .mark = Mark::points, .color = measured_color},
         modelled{.label = "model after", .mark = Mark::points, .color = after_color};
     for (std::size_t i = 0; i < observations.cells.size(); ++i) {
@@ -259,7 +259,7 @@ Sheet signature_sheet(const LoopAnswer& answer, const Covariate& x) {
   const Eigen::VectorXd& base = answer.found().base.fit().prediction;
   return over(seen(answer), x, "The effect's signature over the residual",
               {{"residual of the base model", before_color, standardised(answer, seen(answer).values() - base, base)},
-               {"with the effect less without", after_color, change_by_effects(answer)}});
+               {"with the effect - without", after_color, change_by_effects(answer)}});
 }
 
 std::vector<Covariate> variables_by_weight(const LoopAnswer& answer) {

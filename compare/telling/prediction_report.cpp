@@ -28,7 +28,7 @@ Table runs_table(const Prediction& prediction) {
   for (const ChannelError& error : prediction.errors) {
     const ChannelView& channel = channel_views[error.channel];
     header.push_back(heading(std::string(channel.title), std::string(channel.unit)));
-    header.insert(header.end(), {"predicted", "less measured"});
+    header.insert(header.end(), {"predicted", "predicted - measured"});
   }
   Table table{"", header};
   for (std::size_t i = 0; i < prediction.runs.size(); ++i) {

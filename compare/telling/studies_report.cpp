@@ -284,7 +284,7 @@ void add_study(Report& report, const StudyPart& part, bool opens) {
 
 void add_campaign(Report& report, const CampaignPart& part) {
   report.add(part.campaign.name,
-             channel_errors_table(part.prediction, "Predicted less measured, without fitting",
+             channel_errors_table(part.prediction, "Predicted - measured, without fitting",
                                   {"channel", "runs", "RMS error", "bias", "measured range", "share of range [%]"}));
   report.add(origin_of_errors(scenario_of(part.campaign)));
   report.add(Figure(campaign_sheet(part.campaign, part.prediction),

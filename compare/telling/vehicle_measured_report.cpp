@@ -84,8 +84,8 @@ std::vector<KeyFigure> measured_key_figures(const MeasuredAnswers& answers) {
   if (answers.answered == 0) return {{"no answer", "at any measured slip"}};
   const std::string unit = unit_behind(view_of(answers).unit);
   std::vector<KeyFigure> figures = {
-      {number(answers.rms * shown_scale(answers), 2) + unit, "root mean square of model less measured"},
-      {modelled_text(answers, answers.mean) + unit, "mean of model less measured"}};
+      {number(answers.rms * shown_scale(answers), 2) + unit, "root mean square of model - measured"},
+      {modelled_text(answers, answers.mean) + unit, "mean of model - measured"}};
   if (const WithinTwo count = within_two(answers); count.all > 0)
     figures.push_back({fmt::format("{} of {}", count.within, count.all), "points within two standard errors"});
   return figures;
@@ -100,7 +100,7 @@ Table states_table(const MeasuredAnswers& answers) {
   const bool sloping = tells_slopes_of_pulls(answers);
   Table table{capital(view.title) + " at a slip",
               {"slip [%]", heading("measured", view.unit), heading("model", view.unit),
-               heading("model less measured", view.unit), "over its standard error"}};
+               heading("model - measured", view.unit), "over its standard error"}};
   if (sloping) table.header.insert(table.header.begin() + 1, "slope [deg]");
   for (std::size_t i = 0; i < answers.modelled.size(); ++i) {
     const MeasuredState& measured = answers.measured.states[i];

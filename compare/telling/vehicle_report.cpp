@@ -212,7 +212,7 @@ Table wheels_table(const VehicleAnswers& answers) {
                number(wheel.normal_load / r.contact_area * 1e-3),
                std::to_string(answers.wheels[i].pass())});
   }
-  table.legend = "Load: normal to the ground. Pull: less the slope's share of the wheel's load.";
+  table.legend = "Load: normal to the ground. Pull: what is left beyond the wheel's share of the slope.";
   return table;
 }
 

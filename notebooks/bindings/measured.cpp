@@ -60,7 +60,7 @@ void bind_prediction(py::module_& module) {
           "channel", [](const ChannelError& e) { return std::string(compare::channel_views.at(e.channel).name); })
       .def_readonly("runs", &ChannelError::runs)
       .def_readonly("rmse", &ChannelError::rmse)
-      .def_readonly("bias", &ChannelError::bias, "mean of predicted less measured")
+      .def_readonly("bias", &ChannelError::bias, "mean of predicted - measured")
       .def_readonly("range", &ChannelError::range, "of the measured values")
       .def_readonly("share_of_range", &ChannelError::share_of_range, "rmse/range; NaN where the range is 0");
   py::class_<Prediction>(module, "Prediction", "A campaign as a model predicts it, row by row, nothing fitted.")

@@ -60,7 +60,7 @@ def predict(campaign: Union[Campaign, str], scenario: Optional[Scenario] = None,
     """A campaign as the analytic model predicts it, a row a run, nothing fitted.
 
     scenario: soil and effects in place of the declared ones. Columns: conditions, for each channel NAME_measured,
-    NAME_predicted, its NAME_std_error and NAME_residual (predicted less measured), error. SI and radians.
+    NAME_predicted, its NAME_std_error and NAME_residual (predicted - measured), error. SI and radians.
     """
     known = find_campaign(campaign) if isinstance(campaign, str) else campaign
     model = BekkerWong(patch=False)
@@ -80,7 +80,7 @@ def predict(campaign: Union[Campaign, str], scenario: Optional[Scenario] = None,
 
 @worded
 def error_frame(prediction: pd.DataFrame) -> pd.DataFrame:
-    """Of what predict gave, a row a measured channel: runs, rmse, bias (predicted less measured), range. SI."""
+    """Of what predict gave, a row a measured channel: runs, rmse, bias (predicted - measured), range. SI."""
     rows = {}
     for name in CHANNELS:
         residual = prediction[name + "_residual"].dropna()
