@@ -188,6 +188,8 @@ bool looks_like_a_date(const std::string& text) {
 /// What to write in place of a number with commas: "1,400" may be 1400 or 1.4.
 std::string without_commas(const std::string& text) {
   static const std::regex in_thousands("-?[0-9]{1,3}(,[0-9]{3})+(\\.[0-9]*)?"), one_thousand("-?[0-9]{1,3},[0-9]{3}");
+  constexpr std::size_t longest = 40;  // no number is longer, and a match recurses by the length
+  if (text.size() > longest) return "a decimal point is '.'";
   std::string whole = text, point = text;
   std::erase(whole, ',');
   std::ranges::replace(point, ',', '.');

@@ -293,6 +293,9 @@ TEST(CampaignRefuses, TextInANumber) {
       {"3/4/2026,", "a number such as 3.4 for a date"},
   };
   for (const auto& [cell, hint] : told) EXPECT_THAT(refused_csv("122,", cell), HasSubstr(hint)) << cell;
+  std::string endless = "\"1";
+  for (int i = 0; i < 200'000; ++i) endless += ",000";
+  EXPECT_THAT(refused_csv("122,", endless + "\","), HasSubstr("a decimal point is '.'"));
   EXPECT_THAT(refused_csv("2,a,1000", "two,a,1000"), StartsWith("runs.csv:3:1: column 'run'"));
   EXPECT_THAT(refused_csv("0.1,2,", "0.1,1.5,"), HasSubstr("column 'pass': expected a whole number, not '1.5'"));
 }
