@@ -44,7 +44,6 @@ int bevameter(const BevameterOptions& options, const Session& session) {
       soil.name, asked.plates.diameters.size(), options.packings, number(asked.specimen.settling_friction));
   Outputs outputs = publish(compare::report_on(fit, measured, soil, options.packings), options.outputs, {}, session);
   outputs.file(options.output, [&] { return write_soil(with_bevameter(soil, fit, measured.density, source)); });
-  if (!options.outputs.json && !options.output.empty() && outputs.complete()) fmt::print("wrote {}\n", options.output);
   return outputs.status(done);
 }
 

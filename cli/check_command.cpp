@@ -15,6 +15,7 @@
 #include "compare/sweep/varying.hpp"
 #include "compare/vehicle/vehicle_doubts.hpp"
 #include "cone_index/vehicle.hpp"
+#include "scenario/mapping_reader.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/scm_soil.hpp"
 #include "scenario/yaml_node.hpp"
@@ -41,15 +42,52 @@ fs::path file_named(const std::string& name, const Workplace& place) {
     }
     if (!fs::exists(name, error))
       throw InputError("no file and nothing in the library is called '" + clipped(name) + "'" +
-                       did_you_mean(name, names));
+                       did_you_mean_name(name, names));
   }
-  return fs::is_directory(name, error) ? fs::path(name) / "campaign.yaml" : fs::path(name);
+  return compare::campaign_file(name);
 }
 
 CheckedFile checked_soil(const Soil& soil) {
   compare::Doubts doubts = compare::doubts(soil);
   if (soil.granular) append(doubts, compare::grain_value_doubts(*soil.granular));
   return {fmt::format("soil '{}'", soil.name), doubts};
+}
+
+/// A key that files of one format alone have at their top.
+struct TellingKey {
+  const char *key, *format;
+};
+constexpr TellingKey telling_keys[] = {{"data", compare::campaign_format},
+                                       {"columns", compare::campaign_format},
+                                       {"wheel", compare::campaign_format},
+                                       {"study", case_format},
+                                       {"drive", case_format},
+                                       {"tire", case_format},
+                                       {"radius", tire_format},
+                                       {"semi_empirical", soil_format},
+                                       {"granular", soil_format},
+                                       {"resistive_force", soil_format},
+                                       {"beds", soil_format},
+                                       {"cone_index", soil_format},
+                                       {"cone_index_gradient", soil_format},
+                                       {"clearance", cone_index::vehicle_format},
+                                       {"tire_width", cone_index::vehicle_format},
+                                       {"axles", compare::vehicle_case_format}};
+
+/// Throws InputError for a file that does not say its format, with the one that its name and keys tell.
+void refuse_without_format(const fs::path& file) {
+  const SourceText source = read_source_text(file, largest_yaml);
+  const YamlNode document = parse_yaml(source);
+  if (!document.is_mapping() || document.find("format")) return;
+  std::string format = file.filename() == "campaign.yaml" ? compare::campaign_format : "";
+  for (const TellingKey& telling : telling_keys)
+    if (format.empty() && document.find(telling.key)) format = telling.format;
+  if (format.empty())
+    source.refuse(
+        0, "key 'format' is missing",
+        "its first line, one of format: " + listed({case_format, compare::campaign_format, tire_format, soil_format,
+                                                    compare::vehicle_case_format, cone_index::vehicle_format}));
+  expect_format(document, format, Reading{&source, std::nullopt, nullptr, ""});
 }
 
 CheckedFile judge(const fs::path& file, const Workplace& place) {
@@ -65,6 +103,7 @@ CheckedFile judge(const fs::path& file, const Workplace& place) {
   }
   const bool rows = (file.extension() == ".csv" || file.extension() == ".CSV");  // refused with a hint at the campaign
   const std::string format = rows ? compare::campaign_format : format_of(file);
+  if (format.empty()) refuse_without_format(file);
   if (format == compare::campaign_format) {
     const compare::Campaign campaign = compare::read_campaign(file, place.library, place.effects);
     return {fmt::format("campaign '{}': {} of {}", campaign.name, compare::counted(campaign.runs.size(), "run"),

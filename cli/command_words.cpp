@@ -79,7 +79,22 @@ constexpr Sentence sentences[] = {
 
 }  // namespace
 
-std::string refusal_of(const CLI::ParseError& error, const std::string& command) {
+std::string example_of(const CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* command = &app;
+  for (const std::string& word : words) {
+    const std::vector<const CLI::App*> known = command->get_subcommands({});
+    const auto named = std::ranges::find(known, word, [](const CLI::App* one) { return one->get_name(); });
+    if (named == known.end()) break;
+    command = *named;
+  }
+  const std::string help = command->get_footer();
+  for (const std::string_view mark : {"Example: ", "Examples: "})
+    if (const std::size_t at = help.find(mark); at != help.npos)
+      return help.substr(at + mark.size(), help.find('\n', at) - at - mark.size());
+  return "";
+}
+
+std::string refusal_of(const CLI::ParseError& error, const std::string& command, const std::string& example) {
   const std::string_view theirs = error.what();
   std::string text(theirs);
   const bool of_a_check = dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;  // these speak our words
@@ -93,7 +108,10 @@ std::string refusal_of(const CLI::ParseError& error, const std::string& command)
     text = fmt::format(fmt::runtime(one.ours), clipped(inner.substr(0, mark)), clipped(rest));
     break;
   }
-  if (text.find("\n  hint: ") == text.npos) text += fmt::format("\n  hint: see soilbin {}--help", command);
+  const bool lacks = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !example.empty();
+  if (text.find("\n  hint: ") == text.npos)
+    text += lacks ? fmt::format("\n  hint: such as {}; see soilbin {}--help", example, command)
+                  : fmt::format("\n  hint: see soilbin {}--help", command);
   return text;
 }
 

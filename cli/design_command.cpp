@@ -69,7 +69,8 @@ void add_design(CLI::App& app, Session& session) {
             "standard deviation of one run, for each channel that is measured; repeatable; 2 % of its range")
       ->allow_extra_args(false);
   CLI::Option* const rows =
-      add_kept_file(*command, "--csv", asked->csv.file, "FILE.csv", "save the rows, to fill in as the campaign's runs");
+      add_kept_file(*command, "--csv", asked->csv.file, "FILE.csv", "save the rows, to fill in as the campaign's runs")
+          ->check(why_no_csv);
   add_decimal_comma(*command, asked->csv)->needs(rows);
   add_value(*command, "--seed", asked->seed, "N", "seed of the order of the runs; 1");
   asked->outputs.add_to(*command, {.json = "the answer as JSON, soilbin-design/1"});

@@ -151,7 +151,7 @@ int run(int argc, char** argv) {
       app.exit(error, asked, asked);
       return fmt::print("{}", asked.str()), done;
     }
-    return refuse(refusal_of(error, words.front().starts_with("-") ? "" : words.front() + " "));
+    return refuse(refusal_of(error, words.front().starts_with("-") ? "" : words.front() + " ", example_of(app, words)));
   }
   return session.action();
 }

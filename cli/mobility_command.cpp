@@ -19,6 +19,10 @@ namespace {
 
 using cone_index::Vehicle;
 
+constexpr const char* mobility_example =
+    "soilbin mobility --weight 59.8kN --axles 2 --tires 4 --tire hmmwv --clearance 442mm --power 142kW "
+    "--rating-cone-index '300+-30 kPa'";
+
 struct MobilityOptions {
   std::string file, tire, soil, rating, remolding;
   DescribedFlags<Vehicle> vehicle;
@@ -42,6 +46,11 @@ Vehicle vehicle_of(const MobilityOptions& options, const Session& session) {
   if (options.file.empty()) {
     check_given(options);
   } else {
+    if (names_a_vehicle(session.place, options.file))
+      throw InputError(fmt::format(
+          "'{0}' is a vehicle on a soil, which tells no clearance: a vehicle cone index needs one\n  hint: soilbin "
+          "vehicle {0} asks that; here a file of soilbin-vehicle/1 or flags, such as {1}",
+          options.file, mobility_example));
     vehicle = cone_index::parse_vehicle(read_source_text(options.file, largest_yaml));
     if (vehicle.name.empty()) vehicle.name = std::filesystem::path(options.file).stem().string();
   }
@@ -109,9 +118,7 @@ void add_mobility(CLI::App& app, Session& session) {
   add_value(*command, "--tire", options->tire, "NAME|FILE", "width, diameter and section height are this tire's");
   options->vehicle.add_to(*command, "Vehicle");
   options->outputs.add_to(*command, {.json = "soilbin-mobility/1, in SI"});
-  command->footer(
-      "Example: soilbin mobility --weight 59.8kN --axles 2 --tires 4 --tire hmmwv --clearance 442mm --power 142kW "
-      "--rating-cone-index '300+-30 kPa'");
+  command->footer(fmt::format("Example: {}", mobility_example));
   command->callback([=, &session] { session.action = [=, &session] { return mobility(*options, session); }; });
 }
 

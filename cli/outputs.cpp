@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 
@@ -30,10 +31,16 @@ struct DrawingFormat {
 constexpr std::array<DrawingFormat, 3> drawing_formats = {
     {{".svg", [](const std::string& svg) { return svg; }}, {".png", png_of}, {".pdf", pdf_of}}};
 
-/// nullptr where the ending tells none.
-const DrawingFormat* drawing_format_of(const std::string& name) {
+/// ".csv" of "a.CSV".
+std::string ending_of(const std::string& name) {
   std::string ending = std::filesystem::path(name).extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+/// nullptr where the ending tells none.
+const DrawingFormat* drawing_format_of(const std::string& name) {
+  const std::string ending = ending_of(name);
   const auto found =
       std::ranges::find_if(drawing_formats, [&](const DrawingFormat& format) { return format.ending == ending; });
   return found == drawing_formats.end() ? nullptr : &*found;
@@ -53,7 +60,12 @@ void Outputs::write(const std::string& name, const std::function<void()>& write)
 }
 
 void Outputs::file(const std::string& name, const std::function<std::string()>& content) {
-  write(name, [&] { write_file_atomically(name, content()); });
+  write(name, [&] {
+    write_file_atomically(name, content());
+    clear_progress_line();
+    std::fflush(stdout);  // what is told before stands before it, in a log of both too
+    fmt::print(stderr, "wrote {}\n", name);
+  });
 }
 
 std::string CsvOutput::in_dialect(std::string csv) const {
@@ -87,8 +99,14 @@ CLI::Option* add_decimal_comma(CLI::App& command, CsvOutput& csv) {
                           "CSV for spreadsheets of countries with a decimal comma: 4,4;80");
 }
 
+std::string why_no_csv(const std::string& name) {
+  const std::string ending = ending_of(name);
+  if (!ending.starts_with(".xls") && ending != ".ods") return "";
+  return fmt::format("'{}' is no CSV by its ending\n  hint: name it .csv, which a spreadsheet opens", clipped(name));
+}
+
 void add_csv(CLI::App& command, CsvOutput& csv, const char* meaning) {
-  CLI::Option* const file = add_file(command, "--csv", csv.file, "FILE.csv", meaning);
+  CLI::Option* const file = add_file(command, "--csv", csv.file, "FILE.csv", meaning)->check(why_no_csv);
   add_decimal_comma(command, csv)->needs(file);
 }
 
@@ -106,7 +124,7 @@ void OutputFlags::add_to(CLI::App& command, const Meanings& meanings) {
   add_file(command, meanings.page, report, "FILE.html", "save a page to open in a browser");
   add_folder(command, "--markdown", markdown, "write it as Markdown with its figures and their data", {"case.yaml"});
   if (meanings.csv) {
-    add_file(command, "--csv", csv.file, "FILE.csv", meanings.csv);
+    add_file(command, "--csv", csv.file, "FILE.csv", meanings.csv)->check(why_no_csv);
     add_decimal_comma(command, csv);
     command.parse_complete_callback([this] { csv.needs_a_file(!markdown.empty(), "--markdown"); });
   }

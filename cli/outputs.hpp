@@ -31,6 +31,7 @@ class Outputs {
  public:
   /// Calls `write`, which writes what was named, where anything was.
   void write(const std::string& name, const std::function<void()>& write);
+  /// Writes a text and says so on standard error.
   void file(const std::string& name, const std::function<std::string()>& content);
   void csv(const CsvOutput& asked, const std::function<std::string()>& content);
   /// A drawing in the format that the name's ending says.
@@ -47,6 +48,9 @@ class Outputs {
  private:
   bool complete_ = true, answered_ = true;
 };
+
+/// Why a name is no CSV's: a spreadsheet refuses a text under the endings of its own formats; "" for none. For check().
+std::string why_no_csv(const std::string& name);
 
 /// Adds --csv, which names a file to write: tried as by add_file; and --decimal-comma, its dialect.
 void add_csv(CLI::App& command, CsvOutput& csv, const char* meaning);

@@ -15,6 +15,8 @@
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
+#include "scenario/nearest_word.hpp"
+#include "scenario/source_text.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -32,6 +34,21 @@ bool is_campaign(const std::string& name, const Workplace& place) {
   const std::filesystem::path path = name;
   if (path.filename() == "campaign.yaml" || std::filesystem::exists(path / "campaign.yaml")) return true;
   return place.library.find(Shelf::measured, name) && !place.library.find(Shelf::studies, name);
+}
+
+/// Throws InputError for a name that nothing has, with the nearest of studies and campaigns.
+void refuse_unknown_part(const std::string& name, const Workplace& place) {
+  const bool is_path = name.find('/') != std::string::npos || name.ends_with(".yaml");
+  const auto has_it = [&](Shelf shelf) { return place.library.find(shelf, name).has_value(); };
+  if (is_path || is_there(name) || std::ranges::any_of(all_shelves, has_it)) return;
+  const std::vector<std::string> studies = place.library.names(Shelf::studies),
+                                 campaigns = place.library.names(Shelf::measured);
+  std::vector<std::string> names = studies;
+  names.insert(names.end(), campaigns.begin(), campaigns.end());
+  throw InputError(
+      fmt::format("no study or campaign '{}' in the library, and no such file{}\n  hint: {}; of campaigns {}",
+                  clipped(name), did_you_mean_name(name, names), what_there_is(Shelf::studies, studies),
+                  what_there_is(Shelf::measured, campaigns)));
 }
 
 /// Campaigns that were named among the studies as campaigns, and each name once.
@@ -74,6 +91,7 @@ int report(const ReportOptions& asked, const Session& session) {
   std::vector<compare::PageCard> links;
   for (const std::string& link : options.links) links.push_back(compare::page_card(link, outputs.report));
   compare::NamedDoubts named;
+  for (const std::string& name : options.studies) refuse_unknown_part(name, session.place);
   for (const std::string& name : options.studies) {
     compare::StudyPart part{find_study(session.place, name), {}, {}, {}, name};
     leave_out_grains(part.question, name, session.place, named);

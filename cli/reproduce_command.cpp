@@ -26,14 +26,15 @@ struct ReproduceOptions {
 };
 
 fs::path findings_file(const Workplace& place, const std::string& name) {
-  std::vector<std::string> names;
+  std::set<std::string> all;
   for (const fs::path& folder : place.folders) {
     const fs::path file = folder / "findings" / (name + ".yaml");
     if (fs::exists(file)) return file;
     if (!fs::is_directory(folder / "findings")) continue;
-    for (const auto& entry : fs::directory_iterator(folder / "findings")) names.push_back(entry.path().stem().string());
+    for (const auto& entry : fs::directory_iterator(folder / "findings")) all.insert(entry.path().stem().string());
   }
   if (name.find('/') != std::string::npos || name.ends_with(".yaml")) return name;
+  const std::vector<std::string> names(all.begin(), all.end());
   throw InputError("no findings '" + clipped(name) + "'" + did_you_mean(name, names) + "\n  hint: there are " +
                    listed(names));
 }

@@ -30,7 +30,8 @@ int runs(const RunsOptions& asked, const Session& session) {
   const Outputs outputs =
       publish(compare::report_on(made, asked.file, how.columns), asked.outputs, compare::doubts(made), session);
   if (!asked.outputs.json && asked.outputs.csv.file.empty())
-    fmt::print("\nnext: --csv runs.csv writes these rows for a campaign (soilbin init --campaign DIR)\n");
+    fmt::print(
+        "\nnext: --csv runs.csv writes these rows for a campaign (soilbin init --campaign DIR --from runs.csv)\n");
   return outputs.status(done);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <regex>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -173,6 +174,34 @@ CsvTable parse_csv(const SourceText& source, std::size_t most_rows) {
   return table;
 }
 
+namespace {
+
+/// Whether a text is a day that a spreadsheet wrote: "03. Apr", "3-Apr", "Apr 03", "3/4/2026", "03.04.26".
+bool looks_like_a_date(const std::string& text) {
+  static const std::regex with_a_month(
+      R"(([0-9]{1,4}[-/. ]+)?(jan|feb|mar|mär|apr|ma[iy]|jun|jul|aug|sep|o[ck]t|nov|de[cz])[a-z]*[-/. ]*[0-9]{0,4})",
+      std::regex::icase);
+  static const std::regex of_numbers(R"([0-9]{1,4}([-/.])[0-9]{1,2}\1([0-9]{2}|[0-9]{4})?)");
+  return text.size() < 20 && (std::regex_match(text, with_a_month) || std::regex_match(text, of_numbers));
+}
+
+/// What to write in place of a number with commas: "1,400" may be 1400 or 1.4.
+std::string without_commas(const std::string& text) {
+  static const std::regex in_thousands("-?[0-9]{1,3}(,[0-9]{3})+(\\.[0-9]*)?"), one_thousand("-?[0-9]{1,3},[0-9]{3}");
+  constexpr std::size_t longest = 40;  // no number is longer, and a match recurses by the length
+  if (text.size() > longest) return "a decimal point is '.'";
+  std::string whole = text, point = text;
+  std::erase(whole, ',');
+  std::ranges::replace(point, ',', '.');
+  const bool thousands = std::regex_match(text, in_thousands);
+  if (std::regex_match(text, one_thousand))
+    return fmt::format("this may be {} or {}: write it without the comma", whole, write_number(*read_number(point)));
+  if (thousands) return fmt::format("write {}: thousands are not separated", whole);
+  return read_number(point) ? fmt::format("write {}: a decimal point is '.'", point) : "a decimal point is '.'";
+}
+
+}  // namespace
+
 double number_in(const CsvCell& cell, const std::string& column, const std::string& unit, const SourceText& source) {
   if (const auto value = read_number(cell.text)) return *value;
   const std::string first = cell.text.substr(0, cell.text.find(' '));
@@ -180,7 +209,11 @@ double number_in(const CsvCell& cell, const std::string& column, const std::stri
   if (cell.text.starts_with('#'))
     hint = "the spreadsheet could not compute this cell: mend its formula, or leave the cell empty";
   else if (cell.text.find(',') != std::string::npos)
-    hint = "a decimal point is '.'";
+    hint = without_commas(cell.text);
+  else if (looks_like_a_date(cell.text))
+    hint =
+        "the spreadsheet took a number such as 3.4 for a date: set the column's format to Number, and type it once "
+        "more";
   else if (first != cell.text && read_number(first))
     hint =
         fmt::format("write {}: the unit of the whole column ({}) stands in its name or in campaign.yaml, not in a cell",

@@ -45,14 +45,6 @@ std::string where_it_goes(Shelf shelf, Shelf asked, const std::string& name, con
   return there;
 }
 
-/// All names where a line holds them.
-std::string what_there_is(Shelf shelf, const std::vector<std::string>& names) {
-  constexpr std::size_t few = 12;
-  if (names.empty()) return "the library is empty; see soilbin doctor";
-  if (names.size() <= few) return "there are " + listed(names);
-  return fmt::format("soilbin list {} shows the {} that there are", folder_of(shelf), names.size());
-}
-
 void add_where_present(const fs::path& folder, std::vector<fs::path>& folders) {
   std::error_code error;
   if (fs::is_directory(folder, error)) folders.push_back(folder);
@@ -72,6 +64,13 @@ std::vector<fs::path> case_folders(const fs::path& installed, const fs::path& so
   return folders;
 }
 
+std::string what_there_is(Shelf shelf, const std::vector<std::string>& names) {
+  constexpr std::size_t few = 12;
+  if (names.empty()) return "the library is empty; see soilbin doctor";
+  if (names.size() <= few) return "there are " + listed(names);
+  return fmt::format("soilbin list {} shows the {} that there are", folder_of(shelf), names.size());
+}
+
 fs::path find_file(const Library& library, Shelf shelf, const std::string& name) {
   const bool is_path = name.find('/') != std::string::npos || name.ends_with(".yaml");
   if (is_path) return name;
@@ -84,7 +83,7 @@ fs::path find_file(const Library& library, Shelf shelf, const std::string& name)
     if (other != shelf && library.find(other, name))
       throw InputError(fmt::format("no {} '{}' in the library: that is a {}\n  hint: {}", kind_of(shelf), name,
                                    kind_of(other), where_it_goes(other, shelf, name, there)));
-  std::string meant = did_you_mean(name, names);
+  std::string meant = did_you_mean_name(name, names);
   for (const Shelf other : all_shelves)
     if (const std::string near = nearest_word(name, library.names(other)); meant.empty() && !near.empty())
       meant = fmt::format(", did you mean the {} '{}'?", kind_of(other), near);

@@ -46,6 +46,10 @@ std::string_view folder_of(Shelf shelf);
 std::vector<std::filesystem::path> case_folders(const std::filesystem::path& installed,
                                                 const std::filesystem::path& sources);
 
+/// What stands on a shelf, for a hint: "there are rover, tractor, truck", or where a line does not hold the names
+/// "soilbin list soils shows the 29 that there are".
+std::string what_there_is(Shelf shelf, const std::vector<std::string>& names);
+
 /// The file behind a name on a shelf, or a path to a file (or, for a campaign, its folder). A name without '/' and
 /// '.yaml' is looked up in the library first. Throws InputError with the nearest name.
 std::filesystem::path find_file(const Library& library, Shelf shelf, const std::string& name);

@@ -44,6 +44,12 @@ void expect_keys(const YamlNode& mapping, const std::vector<std::string>& keys, 
   for (std::size_t i = 0; i + 1 < mapping.items.size(); i += 2) {
     const YamlNode& key = mapping.items[i];
     if (std::find(keys.begin(), keys.end(), key.scalar) != keys.end()) continue;
+    const std::size_t blank = key.scalar.find(' ');
+    if (const std::string word = key.scalar.substr(0, blank); blank != word.npos &&
+                                                              mapping.items[i + 1].kind == YamlNode::Kind::null &&
+                                                              std::find(keys.begin(), keys.end(), word) != keys.end())
+      reading.refuse(key, fmt::format("'{}' has no colon behind '{}'", clipped(key.scalar), word),
+                     fmt::format("write {}:{}", word, clipped(key.scalar.substr(blank))));
     reading.refuse(key, fmt::format("unknown key '{}'{}", clipped(key.scalar), did_you_mean(key.scalar, keys)),
                    "keys here: " + listed(keys));
   }
@@ -54,8 +60,8 @@ const YamlNode* value_of(const YamlNode& mapping, const std::string& key, Need n
   const YamlNode* node = mapping.find(key);
   if (node == nullptr && need == Need::required)
     reading.refuse(mapping, fmt::format("key '{}' is missing", key), fmt::format("{}: {}", key, meaning));
-  if (node != nullptr && node->kind == YamlNode::Kind::null)
-    reading.refuse(*node, fmt::format("nothing stands behind '{}'", key), fmt::format("{}: {}", key, meaning));
+  if (node != nullptr && node->kind == YamlNode::Kind::null)  // it stands at the key: what is not there has no place
+    reading.refuse(*(node - 1), fmt::format("nothing stands behind '{}'", key), fmt::format("{}: {}", key, meaning));
   return node;
 }
 
@@ -149,7 +155,11 @@ constexpr OtherFormat other_formats[] = {
 
 std::string hint_at_format(const std::string& format, const std::string& file) {
   const auto* const other = std::ranges::find(other_formats, format, &OtherFormat::format);
-  return other == std::end(other_formats) ? "" : fmt::format(fmt::runtime(other->hint), file);
+  if (other != std::end(other_formats)) return fmt::format(fmt::runtime(other->hint), file);
+  std::vector<std::string> formats;
+  for (const OtherFormat& known : other_formats) formats.emplace_back(known.format);
+  const std::string near = nearest_word(format, formats);
+  return near.empty() ? "" : "format: " + near;
 }
 
 }  // namespace

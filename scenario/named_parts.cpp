@@ -70,13 +70,13 @@ bool looks_like_path(const std::string& name) {
 template <class T>
 std::string not_found(const std::string& name, const Library& library) {
   return fmt::format("no {} '{}' in the library{}", Kind<T>::word, clipped(name),
-                     did_you_mean(name, library.names(Kind<T>::shelf)));
+                     did_you_mean_name(name, library.names(Kind<T>::shelf)));
 }
 
 template <class T>
 std::string names_hint(const Library& library) {
-  const std::vector<std::string> names = library.names(Kind<T>::shelf);
-  return names.empty() ? "the library is empty" : std::string(Kind<T>::word) + "s: " + listed(names);
+  const std::string there = what_there_is(Kind<T>::shelf, library.names(Kind<T>::shelf));
+  return std::is_same_v<T, Tire> ? there + "; or a size, such as 600/65R28, 18.4-38 or 16.00R20" : there;
 }
 
 bool is_file(const fs::path& path) {
@@ -91,7 +91,11 @@ std::optional<T> find_by_size(const std::string& name, const Library& library) {
     const std::string stored = library_name_of_size(name);
     if (stored.empty()) return std::nullopt;
     if (const auto file = library.find(Shelf::tires, stored)) return read_file<Tire>(*file);
-    return tire_of_size(name);
+    std::optional<Tire> sized = tire_of_size(name);
+    for (const std::string& known : library.names(Shelf::tires))
+      if (sized && nearly_same_size(name, known))
+        sized->source += fmt::format("; nearly this size in the library: {}", known);
+    return sized;
   }
   return std::nullopt;
 }

@@ -62,6 +62,14 @@ constexpr std::pair<std::string_view, std::string_view> words_of_the_field[] = {
     {"tire_pressure", "tire_flexibility"},
     {"flexible", "tire_flexibility"},
     {"elastic_wheel", "tire_flexibility"},
+    {"tire", "wheel"},
+    {"tyre", "wheel"},
+    {"wheel", "tire"},
+    {"tyre", "tire"},
+    {"pull", "drawbar_pull"},
+    {"moment", "torque"},
+    {"depth", "sinkage"},
+    {"side_force", "lateral_force"},
     {"diameter", "radius"},
     {"gamma", "density"},
     {"unit_weight", "density"},
@@ -115,12 +123,60 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   return best;
 }
 
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& right) {
-  if (const std::vector<std::string> meant = meant_words(word, right); !meant.empty()) {
-    std::string text = ", did you mean '" + meant.front();
-    for (std::size_t i = 1; i < meant.size(); ++i) text += "' or '" + meant[i];
-    return text + "'?";
+namespace {
+
+/// ", did you mean 'loop' or 'plates'?"
+std::string meaning_one_of(const std::vector<std::string>& words) {
+  if (words.empty()) return "";
+  std::string text = ", did you mean '" + words.front();
+  for (std::size_t i = 1; i < words.size(); ++i) text += (i + 1 < words.size() ? "', '" : "' or '") + words[i];
+  return text + "'?";
+}
+
+/// "sandy-loam wet" as sandy, loam, wet.
+std::vector<std::string> parts_of_name(const std::string& name) {
+  std::vector<std::string> parts(1);
+  for (const char c : lower(name))
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      parts.back() += c;
+    else if (!parts.back().empty())
+      parts.emplace_back();
+  if (parts.back().empty()) parts.pop_back();
+  return parts;
+}
+
+/// How many of these words a name holds: 2 for each that is a part of it, 1 for each that begins one.
+int words_held(const std::vector<std::string>& words, const std::string& name) {
+  const std::vector<std::string> parts = parts_of_name(name);
+  int held = 0;
+  for (const std::string& word : words)
+    if (std::ranges::find(parts, word) != parts.end())
+      held += 2;
+    else if (word.size() > 2)
+      held += std::ranges::any_of(parts, [&](const std::string& part) { return part.starts_with(word); });
+  return held;
+}
+
+}  // namespace
+
+std::string did_you_mean_name(const std::string& name, const std::vector<std::string>& names) {
+  if (const std::string near = did_you_mean(name, names); !near.empty()) return near;
+  constexpr std::size_t most = 5, longest = 200;
+  const std::vector<std::string> words = parts_of_name(name.substr(0, longest));
+  std::vector<std::string> best;
+  int held = 1;
+  for (const std::string& candidate : names) {
+    const int here = words_held(words, candidate);
+    if (here > held) best.clear(), held = here;
+    if (here == held) best.push_back(candidate);
   }
+  std::ranges::stable_sort(best, {}, [](const std::string& one) { return parts_of_name(one).size(); });
+  best.resize(std::min(best.size(), most));
+  return meaning_one_of(best);
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& right) {
+  if (const std::vector<std::string> meant = meant_words(word, right); !meant.empty()) return meaning_one_of(meant);
   const std::string near = nearest_word(word, right);
   return near.empty() ? "" : ", did you mean '" + near + "'?";
 }

@@ -17,6 +17,10 @@ std::vector<std::string> meant_words(const std::string& word, const std::vector<
 /// before a misspelling: ", did you mean 'lug_height'?" for "grouser_height".
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& right);
 
+/// The end of a message on a name that nothing has, as did_you_mean writes it. Where none is nearly spelt like it,
+/// those that hold the most of its words, five at most: ", did you mean 'sandy-loam-wet'?" for "wet loam".
+std::string did_you_mean_name(const std::string& name, const std::vector<std::string>& names);
+
 /// "radius, width, lugs"; a word that is longer than any of ours is clipped, and more than 100 are counted.
 std::string listed(const std::vector<std::string>& words);
 

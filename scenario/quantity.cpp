@@ -112,6 +112,13 @@ std::string weight_of(const Decimal& decimal, const Unit& written, const Unit& e
   return mass ? fmt::format(", which weighs {:.4g} kN on Earth", *mass * standard_gravity / 1e3) : "";
 }
 
+/// ", which as a grade is 5.711 deg" of a percentage where an angle was expected.
+std::string angle_of(const Decimal& decimal, const Unit& written, const Unit& expected) {
+  const bool of_grade = written.text == "%" && same_dimension(expected.dimension, parse_unit("deg").dimension);
+  const std::optional<double> grade = of_grade ? in_base_units(decimal, written) : std::nullopt;
+  return grade ? fmt::format(", which as a grade is {:.4g} deg", std::atan(*grade) / degree) : "";
+}
+
 std::string wrong_dimension(const Unit& written) {
   if (written.text == "-") return "it has no unit";
   if (written.text == "lb") return "'lb' is a mass; a pound-force is written 'lbf'";
@@ -185,7 +192,9 @@ Quantity parse_quantity(std::string_view text, const Measure& measure, std::opti
   Quantity found;
   found.unit = unit_as_written(whole, trim(whole.substr(decimal.length)), expected, n);
   if (!same_dimension(found.unit.dimension, expected.dimension, n))
-    refuse(expected, whole, wrong_dimension(found.unit) + weight_of(decimal, found.unit, expected));
+    refuse(expected, whole,
+           wrong_dimension(found.unit) + weight_of(decimal, found.unit, expected) +
+               angle_of(decimal, found.unit, expected));
   const std::optional<double> value = in_base_units(decimal, found.unit);
   if (!value) refuse(expected, whole, "the number is too large or too small");
   if (!measure.range.holds(*value))

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <regex>
 
 #include "scenario/errors.hpp"
@@ -25,7 +26,7 @@ std::string tidy(const std::string& text) {
 
 /// Whether a text was meant as a size: digits, and what stands between them in sizes.
 bool is_meant(const std::string& size) {
-  static const std::regex meant(R"((IF|VF|CFO|LT|P)?[0-9]+[0-9.]*[-/XRBD][-0-9./XRBDZCLT]*)");
+  static const std::regex meant(R"((IF|VF|CFO|LT|P)?[0-9]+[0-9.]*[-/XRBDL][-0-9./XRBDZCLT]*)");
   return std::regex_match(size, meant);
 }
 
@@ -101,6 +102,16 @@ std::optional<Tire> tire_of_size(const std::string& text) {
   tire.source = fmt::format("{}{:.4g} mm wide, {} on a rim of {:g} in, so a radius of {:.4g} mm over an unknown tread",
                             by_size_alone, 1000 * tire.width, sides, size.rim, 1000 * tire.radius);
   return tire;
+}
+
+bool nearly_same_size(const std::string& one, const std::string& other) {
+  if (!is_meant(tidy(one)) || !is_meant(tidy(other))) return false;
+  try {
+    const Size a = read(one), b = read(other);
+    return a.width == b.width && a.aspect == b.aspect && a.diameter == b.diameter && std::abs(a.rim - b.rim) <= 1.0;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 std::string library_name_of_size(const std::string& text) {

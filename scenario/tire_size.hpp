@@ -26,6 +26,10 @@ inline constexpr std::string_view by_size_alone = "by its size alone: ";
 /// incomplete or that no tire has.
 std::optional<Tire> tire_of_size(const std::string& text);
 
+/// Whether two sizes are of one width and of rims that differ by an inch at most, as 14R20, 14.00R21 and 14.00R20 are:
+/// one may be meant where the other is written. No where either is no size.
+bool nearly_same_size(const std::string& one, const std::string& other);
+
 /// A size as the library names it, "600-65R28" for "600/65 r28"; "" where the text is no size.
 std::string library_name_of_size(const std::string& text);
 

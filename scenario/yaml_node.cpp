@@ -162,12 +162,45 @@ const YamlNode* YamlNode::find(std::string_view key) const {
 
 namespace {
 
+/// Blanks before the first sign of a line.
+std::size_t indent_of(const std::string& line) { return std::min(line.find_first_not_of(' '), line.size()); }
+
+bool has_a_key(const std::string& line) { return line.find(':') != line.npos; }
+
+/// A line that begins in another column than those of its block, or a key without its colon, as far as the lines up to
+/// that of the error tell; "" where they don't.
+std::string slip_of_layout(const std::vector<std::string>& lines) {
+  if (lines.size() < 2) return "";
+  const std::string &here = lines.back(), &before = lines[lines.size() - 2];
+  const std::size_t indent = indent_of(here), last = indent_of(before);
+  const bool opens_block = std::string_view(":|>").find(before.back()) != std::string_view::npos ||
+                           before[last] == '-' || before.find(": #") != before.npos;
+  const bool deeper = indent > last && has_a_key(before) && !opens_block;
+  const bool between =
+      indent < last && std::ranges::none_of(lines.begin(), lines.end() - 1,
+                                            [&](const std::string& line) { return indent_of(line) == indent; });
+  if (has_a_key(here) && (deeper || between))
+    return fmt::format(
+        "this line begins in column {}, the one before it in column {}: lines of one block begin in one "
+        "column",
+        indent + 1, last + 1);
+  for (const std::string& line : {here, before})
+    if (!has_a_key(line) && line.find_first_of("-[]{}\"'") == line.npos)
+      return fmt::format("'{}' has no colon: write a key, ': ' and a value, as in 'radius: 110 mm'",
+                         clipped(line.substr(indent_of(line))));
+  return "";
+}
+
 /// What most likely went wrong in the line of this place or in the one before it; "" where nothing usual did.
 std::string slip_of_the_pen(const std::string& text, std::size_t at) {
   std::string before, here;
+  std::vector<std::string> written;  // without blank lines and comments
   std::istringstream lines(text);
-  for (std::size_t read = 0; read <= at && std::getline(lines, here); read += here.size() + 1)
+  for (std::size_t read = 0; read <= at && std::getline(lines, here); read += here.size() + 1) {
     if (read + here.size() < at) before = here;
+    const std::size_t word = here.find_first_not_of(" \t\r");
+    if (word != here.npos && here[word] != '#') written.push_back(here.substr(0, here.find_last_not_of(" \t\r") + 1));
+  }
   for (const std::string& line : {here, before}) {
     const std::size_t word = line.find_first_not_of(" \t");
     if (word == line.npos) continue;
@@ -184,7 +217,7 @@ std::string slip_of_the_pen(const std::string& text, std::size_t at) {
     if (colon == line.npos && bare != line.npos && bare + 1 < line.size())
       return "a blank is missing after ':', as in 'radius: 110 mm'";
   }
-  return "";
+  return slip_of_layout(written);
 }
 
 }  // namespace

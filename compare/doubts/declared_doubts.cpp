@@ -82,9 +82,16 @@ Doubts doubts(const Soil& soil) {
   return all;
 }
 
+Doubts unusual_inflation(double pressure, const std::optional<OperatingCondition>& at) {
+  constexpr double highest = 1.5e6;
+  if (pressure <= highest) return {};
+  return {Doubt{DoubtKind::unusual_inflation, {pressure / 1000, highest / 1000}, at}};
+}
+
 Doubts doubts(const Tire& tire) {
   Doubts all;
   expect(all, DoubtKind::unusual_radius, tire.radius * 1000, 20, 2000);
+  if (tire.inflation_pressure) append(all, unusual_inflation(*tire.inflation_pressure));
   if (tire.width > 2 * tire.radius)
     all.push_back({DoubtKind::wider_than_high, {1000 * tire.width, 2000 * tire.radius}});
   if (is_lugged(tire) && tire.lugs.height > 0.3 * tire.radius)

@@ -23,9 +23,9 @@ enum class DoubtKind {
   // a soil and a wheel by themselves
   unusual_exponent, unusual_pressure, unusual_cohesion, unusual_friction_angle, unusual_shear_modulus,
   unusual_density, unusual_gravity,
-  unusual_radius, carries_nothing, carries_nothing_at_width, no_strength, usual_stress_angle, stress_angles_limited,
-  stress_behind_axle, rough_errors, rough_errors_at_zero, hardly_known, hardly_known_at_zero, exponent_changed_alone,
-  wider_than_high, high_lugs, beyond_wheels, tips_easily, unusual_wheel_load,
+  unusual_radius, unusual_inflation, carries_nothing, carries_nothing_at_width, no_strength, usual_stress_angle,
+  stress_angles_limited, stress_behind_axle, rough_errors, rough_errors_at_zero, hardly_known, hardly_known_at_zero,
+  exponent_changed_alone, wider_than_high, high_lugs, beyond_wheels, tips_easily, unusual_wheel_load,
   // an answer
   no_solution, standing_wheel, power_from_nothing, unusual_ground_pressure, slides_across, settles_too_deep,
   deep_sinkage, bin_floor, short_contact, large_deflection, beyond_deflections, flattens, pull_without_slip,
@@ -56,7 +56,7 @@ enum class DoubtKind {
   forces_not_turned_to_wheel, no_reruns, mixed_setpoints,
   // measured rows
   rows_are_samples, several_wheels, sinkage_beyond_wheel, pull_beyond_load, unsteady_run, unsteady_samples,
-  sinkage_flipped, renumbered_rows, repeated_row, repeated_number,
+  sinkage_flipped, no_sinkage, renumbered_rows, repeated_row, repeated_number,
   // measured columns
   flipped_sign, column_too_large, column_too_small, slip_in_shares, slip_in_percent, load_in_another_unit,
   columns_swapped, load_swapped,

@@ -39,6 +39,8 @@ constexpr DoubtSentence sentences[] = {
     D(unusual_gravity, "gravity = {:.4g} m/s^2 is outside {:.4g} .. {:.4g}: the Moon has 1.62, Earth 9.81"),
     D(unusual_radius, "the wheel's radius = {:.4g} mm is outside {:.4g} .. {:.4g}: the model is tested from 50 mm to 2 "
       "m"),
+    D(unusual_inflation, "the inflation pressure = {:.0f} kPa is above {:.0f}{at}: tires of cars have some 200 kPa, of "
+      "trucks 800, of aircraft 1500; is its unit right?"),
     D(carries_nothing, "neither k_c nor k_phi is positive: this soil carries no load at any wheel width"),
     D(carries_nothing_at_width, "k_c/b + k_phi is not positive for this width: the soil carries no load"),
     D(no_strength, "c and phi are both 0: this soil has no strength and gives no traction"),
@@ -220,6 +222,8 @@ constexpr DoubtSentence sentences[] = {
     D(unsteady_samples, "not steady: the halves of its {} differ by {:.1f} standard errors"),
     D(sinkage_flipped, "{} of {} measured sinkages are negative: is their sign flipped? Below the undisturbed surface "
       "is positive"),
+    D(no_sinkage, "no run has a sinkage: without it the loop overlooks effects such as slip sinkage, because other soil "
+      "values explain the other channels as well"),
     D(renumbered_rows, "{} of {} rows have all values of an earlier one, under another number: were they copied? They "
       "would count twice"),
     D(repeated_row, "all its values are those of line {}: counted twice"),

@@ -197,6 +197,7 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Doubts& a
   const double pressure = answer.at.load / (tire.width * tire.radius * std::sin(r.entry_angle));
   if (pressure < 500.0 || pressure > 2e6) all.push_back({DoubtKind::unusual_ground_pressure, {pressure / 1000}, at});
   const double arc = bekker_wong::contact_length(r.sinkage.value, tire.radius);
+  if (at.inflation_pressure) append(all, unusual_inflation(*at.inflation_pressure, at));
   append(all, too_steep_across(scenario, answer, std::fmax(length, arc)));
   append(all, too_deep(scenario, answer));
   if (scenario.bin && r.sinkage.value > 0.5 * scenario.bin->depth && !has_effect(scenario, "hard_layer"))
@@ -398,6 +399,8 @@ Doubts doubts_as_declared(const Campaign& campaign, NextIs next) {
   const Case question = question_of(campaign, scenario_of(campaign));
   Doubts all = doubts_of(campaign, question, quick_answers(question), Answered::no, next);
   add_doubt_of_exact_carcass(campaign, all);
+  if (!campaign.runs.empty() && std::ranges::none_of(campaign.runs, [](const Run& run) { return bool(run.sinkage); }))
+    all.push_back({DoubtKind::no_sinkage});
   return all;
 }
 

@@ -158,7 +158,10 @@ Doubts doubts(const LogRuns& runs);
 /// Doubts of a soil by itself: values out of the usual, no strength, nothing carried, hardly known.
 Doubts doubts(const Soil& soil);
 
-/// Doubts of a wheel by itself: its proportions.
+/// Of a pressure [Pa] that no tire has, the wheel's own or that of a condition.
+Doubts unusual_inflation(double pressure, const std::optional<OperatingCondition>& at = std::nullopt);
+
+/// Doubts of a wheel by itself: its size, proportions and pressure.
 Doubts doubts(const Tire& tire);
 
 /// Doubts of a wheel and its soil, which may carry nothing for this width.

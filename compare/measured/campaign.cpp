@@ -10,6 +10,7 @@
 #include "scenario/condition_axes.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/effect_choices.hpp"
+#include "scenario/file_bytes.hpp"
 #include "scenario/mapping_reader.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/named_parts.hpp"
@@ -96,65 +97,78 @@ std::vector<IgnoredColumn> leave_out(CsvTable& table, const YamlNode* ignored, c
   return left;
 }
 
-/// The column that a header most likely names: by the quantity that it begins with, else the nearest word.
-const RunColumn* likely_column(const std::string& header, const std::vector<std::string>& right) {
-  const std::string nearest = nearest_word(header, right);
-  if (const RunColumn* begun = column_begun_by(header)) return begun;
+/// What a column is called without any `columns:`.
+std::optional<ColumnChoice> known_column(const std::string& header) {
   for (const RunColumn& column : run_columns())
-    if (column.canonical == nearest) return &column;
-  return nullptr;
+    if (column.canonical == header) return ColumnChoice{&column, column.measure.unit};
+  return column_by_its_name(header);
 }
 
-/// "{quantity: load, unit: kN}": what an unknown column most likely holds, in the form of `columns:`; in capitals what
-/// only its author knows.
-std::string renaming_for(const std::string& header, const std::vector<std::string>& right) {
-  const RunColumn* column = likely_column(header, right);
-  if (!column) return "{quantity: QUANTITY, unit: UNIT}";
-  if (column->content != RunColumn::Content::number) return fmt::format("{{quantity: {}}}", column->quantity);
-  const std::string unit = unit_at_the_end(header, *column);
-  return fmt::format("{{quantity: {}, unit: {}}}", column->quantity,
-                     unit.empty()  ? "UNIT"
-                     : unit == "%" ? "'%'"
-                                   : unit);
+/// What an unknown column most likely holds: by its header, by the known word that is spelt most like it, or by what
+/// spreadsheets call it.
+LikelyColumn likely_content(const std::string& header, const CsvTable& table, const std::vector<std::string>& right) {
+  const std::string nearest = nearest_word(header, right);
+  const RunColumn* column = column_begun_by(header);
+  for (const RunColumn& known : run_columns())
+    if (!column && known.canonical == nearest) column = &known;
+  if (column) return {header, column, unit_at_the_end(header, *column)};
+  const std::vector<LikelyColumn> all = likely_columns(table);
+  return *std::ranges::find(all, header, &LikelyColumn::header);
 }
 
-ColumnChoice choose_column(const CsvCell& header, Renames& renames, const SourceText& csv) {
-  if (const auto renamed = renames.find(header.text); renamed != renames.end()) {
-    renamed->second.used = true;
-    return renamed->second.choice;
-  }
+/// Refuses columns that nobody knows, at the first of them, with what to write in campaign.yaml for all of them.
+[[noreturn]] void refuse_unknown_columns(const std::vector<const CsvCell*>& unknown, const CsvTable& table,
+                                         const Renames& renames, const SourceText& csv) {
+  const CsvCell& first = *unknown.front();
+  const std::string name = clipped(first.text);
+  if (names_a_clock(first.text))
+    csv.refuse(first.offset,
+               fmt::format("column '{}' holds a time: these rows look like samples of a log, not runs", name),
+               fmt::format("a campaign wants one row a run: soilbin runs '{}' makes them. Where each row is a run, "
+                           "leave the column aside: ignored: [{}]",
+                           csv.file, yaml_scalar(name)));
   std::vector<std::string> right;
-  for (const RunColumn& column : run_columns()) {
-    if (column.canonical == header.text) return {&column, column.measure.unit};
-    right.push_back(column.canonical);
+  for (const RunColumn& column : run_columns()) right.push_back(column.canonical);
+  for (const auto& [named, renamed] : renames) right.push_back(named);
+  std::vector<std::string> others, likely, aside;
+  for (const CsvCell* cell : unknown) {
+    const std::string header = yaml_scalar(clipped(cell->text));
+    const LikelyColumn content = likely_content(cell->text, table, right);
+    if (cell != &first) others.push_back("'" + clipped(cell->text) + "'");
+    if (content.column || unknown.size() == 1) likely.push_back(header + ": " + renaming_of(content, "UNIT"));
+    if (!content.column || unknown.size() == 1) aside.push_back(header);
   }
-  for (const auto& [name, renamed] : renames) right.push_back(name);
-  if (names_a_clock(header.text))
-    csv.refuse(
-        header.offset,
-        fmt::format("column '{}' holds a time: these rows look like samples of a log, not runs", clipped(header.text)),
-        fmt::format("a campaign wants one row a run: soilbin runs '{}' makes them. Where each row is a run, "
-                    "leave the column aside: ignored: [{}]",
-                    csv.file, yaml_scalar(clipped(header.text))));
-  csv.refuse(header.offset,
-             fmt::format("unknown column '{}'{}", clipped(header.text), did_you_mean(header.text, right)),
-             fmt::format("say what it holds in campaign.yaml, such as columns: {{{}: {}}}, or leave it aside: ignored: "
-                         "[{}]; known without that: {}",
-                         yaml_scalar(clipped(header.text)), renaming_for(header.text, right),
-                         yaml_scalar(clipped(header.text)), listed(right)));
+  std::string wrong = fmt::format("unknown column '{}'{}", name, did_you_mean(first.text, right)),
+              hint = "in campaign.yaml";
+  if (!others.empty()) wrong += "; unknown too: " + listed(others);
+  if (!likely.empty()) hint += fmt::format(" say what it holds, such as columns: {{{}}}", listed(likely));
+  if (!aside.empty())
+    hint += fmt::format("{} leave {} aside: ignored: [{}]",
+                        likely.empty()   ? ""
+                        : others.empty() ? ", or"
+                                         : ", and",
+                        others.empty() ? "it" : "what is not compared", listed(aside));
+  csv.refuse(first.offset, wrong, hint + "; known without that: " + listed(right));
 }
 
 std::vector<ColumnChoice> choose_columns(const CsvTable& table, Renames& renames, const SourceText& csv) {
   std::vector<ColumnChoice> choices;
+  std::vector<const CsvCell*> unknown;
   for (const CsvCell& header : table.header.cells) {
-    const ColumnChoice choice = choose_column(header, renames, csv);
-    for (std::size_t i = 0; i < choices.size(); ++i)
+    const auto renamed = renames.find(header.text);
+    const std::optional<ColumnChoice> known =
+        renamed != renames.end() ? std::optional(renamed->second.choice) : known_column(header.text);
+    if (renamed != renames.end()) renamed->second.used = true;
+    if (!known) unknown.push_back(&header);
+    const ColumnChoice choice = known.value_or(ColumnChoice{});
+    for (std::size_t i = 0; known && i < choices.size(); ++i)
       if (choices[i].column == choice.column)
         csv.refuse(header.offset,
                    fmt::format("columns '{}' and '{}' both hold '{}'", clipped(table.header.cells[i].text),
                                clipped(header.text), choice.column->quantity));
     choices.push_back(choice);
   }
+  if (!unknown.empty()) refuse_unknown_columns(unknown, table, renames, csv);
   const auto present = [&](const RunColumn& column) {
     return std::any_of(choices.begin(), choices.end(), [&](const ColumnChoice& c) { return c.column == &column; });
   };
@@ -266,8 +280,11 @@ int free_parameters(const SemiEmpiricalSoil& soil) {
 
 Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(const std::string&)>& open,
                         const Library& library, const EffectVocabulary& effects, CampaignUse use) {
-  if (yaml.file.ends_with(".csv"))
-    throw InputError("'" + yaml.file + "' holds the rows\n  hint: name its folder, or the campaign.yaml beside it");
+  if (yaml.file.ends_with(".csv") || yaml.file.ends_with(".CSV"))
+    throw InputError(
+        fmt::format("'{0}' holds the rows\n  hint: name its folder, or the campaign.yaml beside it; where "
+                    "there is none, soilbin init --campaign mine --from '{0}' writes one",
+                    yaml.file));
   const YamlNode document = parse_yaml(yaml);
   const Reading reading{&yaml, std::nullopt, nullptr, ""};
   expect_format(document, campaign_format, reading);
@@ -311,15 +328,17 @@ Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(c
   return campaign;
 }
 
-namespace {
-
-/// campaign.yaml of a folder, or the file itself.
 fs::path campaign_file(const fs::path& path) {
   std::error_code error;
-  return fs::is_directory(path, error) ? path / "campaign.yaml" : path;
+  if (!fs::is_directory(path, error)) return path;
+  const fs::path file = path / "campaign.yaml";
+  if (is_there(file)) return file;
+  std::string rows = "ROWS.csv";
+  for (const auto& entry : fs::directory_iterator(path, error))
+    if (entry.path().extension() == ".csv") rows = rows == "ROWS.csv" ? entry.path().string() : "ROWS.csv";
+  throw InputError(fmt::format("{}: no such file\n  hint: soilbin init --campaign '{}' --from '{}' writes one",
+                               file.string(), path.string(), rows));
 }
-
-}  // namespace
 
 std::map<std::string, DataColumn> declared_columns(const fs::path& path, const Library& library,
                                                    const EffectVocabulary& effects) {

@@ -103,6 +103,10 @@ int free_parameters(const SemiEmpiricalSoil& soil);
 /// its data file may hold no row with one, and may be missing.
 enum class CampaignUse { prediction, fit, design };
 
+/// campaign.yaml of a folder, or the file itself. Throws InputError for a folder without one, with the command that
+/// writes it.
+std::filesystem::path campaign_file(const std::filesystem::path& path);
+
 /// Reads a campaign: its folder or its campaign.yaml. Throws InputError with file, line, column and the nearest right
 /// word for everything that the format does not allow. A wheel or soil that it names is looked up beside the file, then
 /// in the library.

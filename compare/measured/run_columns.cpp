@@ -3,7 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "compare/measured/condition_views.hpp"
 #include "scenario/mapping_writer.hpp"
@@ -132,10 +135,22 @@ const std::vector<RunColumn>& run_columns() {
   return all;
 }
 
+namespace {
+
+/// A heading with underscores and small letters: "drawbar_pull_[kn]" for "Drawbar pull [kN]".
+std::string one_spelling(std::string header) {
+  for (char& c : header)
+    c = c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return header;
+}
+
+}  // namespace
+
 const RunColumn* column_begun_by(const std::string& header) {
   const RunColumn* likely = nullptr;
+  const std::string begun = one_spelling(header);
   for (const RunColumn& column : run_columns())
-    if (header.starts_with(column.quantity) && (!likely || column.quantity.size() > likely->quantity.size()))
+    if (begun.starts_with(column.quantity) && (!likely || column.quantity.size() > likely->quantity.size()))
       likely = &column;
   return likely;
 }
@@ -163,16 +178,147 @@ std::string unit_at_the_end(const std::string& header, const RunColumn& column) 
 
 std::optional<ColumnChoice> column_by_its_name(const std::string& header) {
   const RunColumn* column = column_begun_by(header);
-  if (!column || column->content != RunColumn::Content::number) return std::nullopt;
+  if (!column) return std::nullopt;
   const std::string behind = header.substr(column->quantity.size());
+  if (behind.empty() && column->measure.unit == "-") return ColumnChoice{column, "-"};
+  if (column->content != RunColumn::Content::number) return std::nullopt;
   if (behind.empty() || std::string_view("_ [(").find(behind.front()) == std::string_view::npos) return std::nullopt;
   // "drawbar_pull_filtered_N" is another quantity: the unit is all that stands behind the name.
   std::string bare = behind;
   std::erase_if(bare, [](char c) { return std::string_view("_ [](),/").find(c) != std::string_view::npos; });
   const std::string unit = unit_at_the_end(header, *column);
-  std::string of_unit = unit == "%" ? bare : unit;
+  std::string of_unit = unit;
   std::erase_if(of_unit, [](char c) { return c == '/' || c == ' '; });
-  return unit.empty() || bare != of_unit ? std::nullopt : std::optional(ColumnChoice{column, unit});
+  const bool in_per_cent = unit == "%" && (bare == "percent" || bare == "pct");
+  return unit.empty() || (bare != of_unit && !in_per_cent) ? std::nullopt : std::optional(ColumnChoice{column, unit});
+}
+
+namespace {
+
+/// What spreadsheets call our quantities, in one spelling.
+constexpr std::pair<std::string_view, std::string_view> spreadsheet_words[] = {
+    {"run_no", "run"},
+    {"run_nr", "run"},
+    {"test", "run"},
+    {"test_no", "run"},
+    {"trial", "run"},
+    {"no", "run"},
+    {"nr", "run"},
+    {"#", "run"},
+    {"test_number", "run"},
+    {"run_number", "run"},
+    {"test_point", "setpoint"},
+    {"condition", "setpoint"},
+    {"label", "setpoint"},
+    {"weight", "load"},
+    {"wheel_load", "load"},
+    {"axle_load", "load"},
+    {"vertical_load", "load"},
+    {"normal_load", "load"},
+    {"vertical_force", "load"},
+    {"fz", "load"},
+    {"wheel_slip", "slip"},
+    {"slip_ratio", "slip"},
+    {"velocity", "speed"},
+    {"forward_speed", "speed"},
+    {"travel_speed", "speed"},
+    {"rpm", "rotation"},
+    {"rotational_speed", "rotation"},
+    {"tire_pressure", "inflation_pressure"},
+    {"tyre_pressure", "inflation_pressure"},
+    {"inflation", "inflation_pressure"},
+    {"moisture_content", "moisture"},
+    {"water_content", "moisture"},
+    {"slope", "longitudinal_incline"},
+    {"incline", "longitudinal_incline"},
+    {"cross_slope", "transverse_incline"},
+    {"side_slope", "transverse_incline"},
+    {"yaw_angle", "yaw"},
+    {"slip_angle", "yaw"},
+    {"pull", "drawbar_pull"},
+    {"drawbar", "drawbar_pull"},
+    {"drawbar_force", "drawbar_pull"},
+    {"pull_force", "drawbar_pull"},
+    {"net_traction", "drawbar_pull"},
+    {"dp", "drawbar_pull"},
+    {"fx", "drawbar_pull"},
+    {"moment", "torque"},
+    {"wheel_torque", "torque"},
+    {"my", "torque"},
+    {"depth", "sinkage"},
+    {"side_force", "lateral_force"},
+    {"fy", "lateral_force"},
+};
+
+/// Whether a heading is these words, alone or with a unit of the column behind them: "Depth mm", not "Depth of rut mm".
+bool is_called(const std::string& header, std::string_view words, const RunColumn& column) {
+  const std::string heading = one_spelling(header);
+  if (!heading.starts_with(words)) return false;
+  std::string behind = header.substr(words.size()), unit = unit_at_the_end(header, column);
+  const bool another_word = !behind.empty() && std::isalnum(static_cast<unsigned char>(behind.front()));
+  std::erase_if(behind, [](char c) { return std::string_view("_ [](),./-").find(c) != std::string_view::npos; });
+  std::erase_if(unit, [](char c) { return c == '/' || c == ' '; });
+  const bool in_other_words = behind == "percent" || behind == "pct" || (column.quantity == "load" && behind == "kg");
+  return !another_word && (behind.empty() || behind == unit || in_other_words);
+}
+
+/// The column that a heading names, in our words or a spreadsheet's; nothing for none.
+const RunColumn* column_in_other_words(const std::string& header) {
+  for (const RunColumn& column : run_columns()) {
+    if (is_called(header, column.quantity, column)) return &column;
+    for (const auto& [words, quantity] : spreadsheet_words)
+      if (quantity == column.quantity && is_called(header, words, column)) return &column;
+  }
+  return nullptr;
+}
+
+/// Whether every cell that isn't empty may be in such a column.
+bool cells_fit(const CsvTable& table, std::size_t place, const RunColumn& column) {
+  return column.content == Content::label || std::ranges::all_of(table.rows, [&](const CsvRow& row) {
+           const std::string& text = row.cells[place].text;
+           const std::optional<double> number = read_number(text);
+           return text.empty() || (number && (column.content == Content::number || std::floor(*number) == *number));
+         });
+}
+
+/// The unit that a heading tells of a column that it does not name in our words, or that its numbers tell.
+std::string likely_unit(const CsvTable& table, std::size_t place, const RunColumn& column) {
+  const std::string& header = table.header.cells[place].text;
+  const std::string unit = unit_at_the_end(header, column), heading = one_spelling(header);
+  if (!unit.empty() || column.content != Content::number) return unit;
+  const bool in_kg = heading.ends_with("kg") || heading.ends_with("kg]") || heading.ends_with("kg)");
+  if (column.quantity == "load" && in_kg) return "kgf";
+  if (column.quantity == "rotation" && heading.starts_with("rpm")) return "rpm";
+  if (column.measure.unit != "-") return "";
+  const bool above_one = std::ranges::any_of(
+      table.rows, [&](const CsvRow& row) { return std::abs(read_number(row.cells[place].text).value_or(0.0)) > 1.0; });
+  return above_one ? "%" : "-";
+}
+
+}  // namespace
+
+std::vector<LikelyColumn> likely_columns(const CsvTable& table) {
+  std::vector<LikelyColumn> all;
+  std::set<const RunColumn*> taken;
+  for (const CsvCell& cell : table.header.cells) {
+    LikelyColumn& column = all.emplace_back(LikelyColumn{cell.text});
+    if (const auto named = column_by_its_name(cell.text); named && taken.insert(named->column).second)
+      column.column = named->column, column.unit = named->unit;
+  }
+  for (std::size_t place = 0; place < all.size(); ++place) {
+    const RunColumn* column = all[place].column ? nullptr : column_in_other_words(all[place].header);
+    if (!column || !cells_fit(table, place, *column) || !taken.insert(column).second) continue;
+    all[place].column = column, all[place].unit = likely_unit(table, place, *column);
+  }
+  return all;
+}
+
+std::string renaming_of(const LikelyColumn& column, const std::string& unknown) {
+  if (!column.column) return fmt::format("{{quantity: QUANTITY, unit: {}}}", unknown);
+  const std::string& unit = column.unit.empty() ? unknown : column.unit;
+  if (column.column->content != Content::number || unit == "-")
+    return fmt::format("{{quantity: {}}}", column.column->quantity);
+  return fmt::format("{{quantity: {}, unit: {}}}", column.column->quantity, unit == "%" ? "'%'" : unit);
 }
 
 std::vector<Run> read_runs(const CsvTable& table, std::span<const ColumnChoice> columns, const SourceText& source) {

@@ -39,14 +39,31 @@ struct ColumnChoice {
   std::string unit;  ///< of the numbers in it
 };
 
-/// The column whose quantity a header begins with, the longest; nothing for none.
+/// The column whose quantity a header begins with, the longest; nothing for none. Capitals do not count, and blanks and
+/// hyphens stand for underscores: "Drawbar pull [kN]".
 const RunColumn* column_begun_by(const std::string& header);
 
 /// The unit that a header ends in, such as "km/h" in "speed_km_h"; "" where it ends in none of the right dimension.
 std::string unit_at_the_end(const std::string& header, const RunColumn& column);
 
-/// What a header that is a quantity with a unit of its own holds: "drawbar_pull_kN", "slip [%]".
+/// What a header that is a quantity with a unit of its own holds: "drawbar_pull_kN", "Slip [%]"; of a plain number or a
+/// label the quantity alone will do.
 std::optional<ColumnChoice> column_by_its_name(const std::string& header);
+
+/// What a column of a spreadsheet most likely holds, by its heading and its cells.
+struct LikelyColumn {
+  std::string header;
+  const RunColumn* column = nullptr;  ///< none: nothing that is compared, such as remarks
+  std::string unit{};                 ///< of the numbers in it; "": its heading tells none
+};
+
+/// A guess for each column of a table: by the quantity or by what spreadsheets call it ("Weight N", "Depth mm", "Test
+/// no."). No two are of one quantity; one that the quantity names goes before one that is guessed. A column of a number
+/// has nothing else in its cells. Slips above 1 are in per cent, and loads in kg are weights (kgf).
+std::vector<LikelyColumn> likely_columns(const CsvTable& table);
+
+/// "{quantity: load, unit: kN}": a guess in the form of `columns:`; `unknown` where the heading tells no unit.
+std::string renaming_of(const LikelyColumn& column, const std::string& unknown);
 
 /// Turns the table's rows into runs. Throws InputError at the cell for whatever can't be one.
 std::vector<Run> read_runs(const CsvTable& table, std::span<const ColumnChoice> columns, const SourceText& source);

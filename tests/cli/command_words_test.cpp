@@ -8,6 +8,7 @@
 namespace soilbin::cli::test {
 namespace {
 
+using testing::AllOf;
 using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
@@ -45,6 +46,53 @@ TEST(CommandWords, AreRefusedInOurs) {
         << words;
     EXPECT_LT(r.err.size(), 300U) << words;
   }
+}
+
+TEST(CommandWords, WhatIsMissingIsShownByAnExample) {
+  const std::pair<const char*, const char*> shown[] = {
+      {"sweep", "'study' is missing\n  hint: such as soilbin sweep paper-straight "},
+      {"design", "'campaign' is missing\n  hint: such as soilbin design FOLDER "},
+      {"drive", "'case' is missing\n  hint: such as soilbin drive rover-climb "},
+      {"export scm", "hint: such as soilbin export scm dry-sand "},
+  };
+  for (const auto& [words, said] : shown) EXPECT_THAT(soilbin(words), Refuses(HasSubstr(said))) << words;
+}
+
+TEST(CommandWords, NamesThatNothingHasAreLookedUpOnTheRightShelves) {
+  EXPECT_THAT(soilbin("reproduce nosuch"), Refuses(HasSubstr("hint: there are paper\n")));
+  EXPECT_THAT(soilbin("report nosuch"),
+              Refuses(AllOf(HasSubstr("no study or campaign 'nosuch'"), HasSubstr("cmu-smooth"))));
+  EXPECT_THAT(soilbin("report cmu-smoth"), Refuses(HasSubstr("did you mean 'cmu-smooth'?")));
+}
+
+// By its keys, or by its name; a file that tells neither hears of every format.
+TEST(CommandWords, AFileWithoutItsFormatIsToldWhichOneItIs) {
+  const Scratch scratch;
+  const std::pair<const char*, const char*> told[] = {
+      {"radius: 1 m\nwidth: 1 m\n", "hint: format: soilbin-tire/1"},
+      {"name: a\ndata: runs.csv\n", "hint: format: soilbin-campaign/1"},
+      {"tire: rover-wheel\nsoil: dry-sand\n", "hint: format: soilbin-case/1"},
+      {"name: a\nsemi_empirical: {}\n", "hint: format: soilbin-soil/1"},
+      {"format: soilbin-campain/1\nname: a\n", "hint: format: soilbin-campaign/1"},
+      {"name: a\n", "one of format: soilbin-case/1, soilbin-campaign/1, "},
+  };
+  for (const auto& [text, hint] : told)
+    EXPECT_THAT(soilbin("check '" + scratch.write("a.yaml", text).string() + "'"),
+                Refuses(AllOf(HasSubstr("format"), HasSubstr(hint))))
+        << text;
+  EXPECT_THAT(soilbin("check '" + scratch.write("campaign.yaml", "name: a\n").string() + "'"),
+              Refuses(HasSubstr("hint: format: soilbin-campaign/1")));
+}
+
+TEST(CommandWords, ACsvIsNoFileOfASpreadsheetAndIsNamedWhenWritten) {
+  const Scratch scratch;
+  const std::string ask = "estimate --soil dry-sand --tire rover-wheel --load 65N --slip 0%..60% --csv '";
+  for (const char* ending : {"a.xlsx", "a.XLS", "a.ods"})
+    EXPECT_THAT(soilbin(ask + (scratch / ending).string() + "'"), Refuses(HasSubstr("name it .csv"))) << ending;
+  EXPECT_THAT(soilbin("design made-lesson --csv '" + (scratch / "a.ods").string() + "'"),
+              Refuses(HasSubstr("name it .csv")));
+  const std::string table = (scratch / "a.csv").string();
+  EXPECT_THAT(soilbin(ask + table + "'").err, HasSubstr("wrote " + table + "\n"));
 }
 
 TEST(CommandWords, AnEmptyTextIsNoValue) {

@@ -46,6 +46,12 @@ TEST(Mobility, TakesAVehicleFileASoilAndATire) {
   EXPECT_THAT(half.err, HasSubstr("1 of 2 axles are driven"));
 }
 
+TEST(Mobility, SaysWhatItTakesToWhoNamesAVehicleOnASoil) {
+  EXPECT_THAT(soilbin("mobility truck"),
+              Refuses(AllOf(HasSubstr("tells no clearance"), HasSubstr("hint: soilbin vehicle truck asks that"),
+                            HasSubstr("such as soilbin mobility --weight "))));
+}
+
 TEST(Mobility, NamesWhatIsMissing) {
   EXPECT_THAT(soilbin("mobility --weight 60kN --axles 2 --tires 4 --tire hmmwv"),
               Refuses(AllOf(HasSubstr("--clearance"), HasSubstr("--power"), Not(HasSubstr("--tire-width")))));

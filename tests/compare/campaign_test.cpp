@@ -23,6 +23,7 @@ namespace {
 using test::FakeVocabulary;
 using test::refusal;
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -179,7 +180,7 @@ TEST(CampaignRefuses, MissingFiles) {
   EXPECT_THAT(refusal([] { read_campaign("no/such/folder", Library(), FakeVocabulary()); }),
               HasSubstr("no/such/folder: no such file"));
   EXPECT_THAT(refusal([] { read_campaign(SOILBIN_SOURCE_DIR "/cases", Library(), FakeVocabulary()); }),
-              HasSubstr("campaign.yaml: no such file"));
+              AllOf(HasSubstr("campaign.yaml: no such file"), HasSubstr("hint: soilbin init --campaign '")));
 }
 
 TEST(CampaignRefuses, UnknownColumns) {
@@ -196,16 +197,74 @@ TEST(CampaignRefuses, UnknownColumnsWithTheLineToWrite) {
   const std::vector<std::pair<std::string, std::string>> hints = {
       {"R2", "columns: {R2: {quantity: QUANTITY, unit: UNIT}}"},
       {"my own", "columns: {my own: {quantity: QUANTITY, unit: UNIT}}"},
-      {"torque_kNm", "{torque_kNm: {quantity: torque, unit: kNm}}"},
-      {"sinkage_mm", "{sinkage_mm: {quantity: sinkage, unit: mm}}"},
-      {"sinkage [mm]", "{\"sinkage [mm]\": {quantity: sinkage, unit: mm}}"},
-      {"speed_mm_s", "{speed_mm_s: {quantity: speed, unit: mm/s}}"},
-      {"speed_km_h", "{speed_km_h: {quantity: speed, unit: km/h}}"},
-      {"slip_pct", "{slip_pct: {quantity: slip, unit: '%'}}"},
+      {"sinkage_max_mm", "{sinkage_max_mm: {quantity: sinkage, unit: mm}}"},
+      {"Depth mm", "{Depth mm: {quantity: sinkage, unit: mm}}"},
+      {"torqu_kNm", "{torqu_kNm: {quantity: torque, unit: kNm}}"},
       {"drawbar_pull", "{drawbar_pull: {quantity: drawbar_pull, unit: UNIT}}"},
       {"drawbar_pull_sd", "{drawbar_pull_sd: {quantity: drawbar_pull_sd, unit: UNIT}}"},
   };
   for (const auto& [header, hint] : hints) EXPECT_THAT(refused_csv("torque_Nm", header), HasSubstr(hint)) << header;
+}
+
+// A spreadsheet's remarks are told all at once, with the lines that campaign.yaml needs.
+TEST(CampaignRefuses, AllUnknownColumnsAtOnce) {
+  EXPECT_THAT(refused(good_yaml, "Date,load_N,slip,Pull kN,Operator\n3 May,80,0.1,0.01,Eva\n"),
+              AllOf(StartsWith("runs.csv:1:1: unknown column 'Date'"), HasSubstr("unknown too: 'Pull kN', 'Operator'"),
+                    HasSubstr("columns: {Pull kN: {quantity: drawbar_pull, unit: kN}}"),
+                    HasSubstr("ignored: [Date, Operator]")));
+}
+
+// A heading that is a quantity with its unit says all that `columns:` could; what is not one stays unknown.
+TEST(Campaign, HeadingsMayHoldTheirUnits) {
+  const auto read = [](const std::string& header, const std::string& row) {
+    return parse(good_yaml, header + "\n" + row + "\n").runs.front();
+  };
+  const auto plain = read("run,load_N,slip,speed_m_s,drawbar_pull_N,torque_Nm,sinkage_m", "3,2000,0.2,1.5,300,40,0.02");
+  const std::pair<const char*, const char*> alike[] = {
+      {"run,load_kN,slip_percent,speed_km_h,drawbar_pull_kN,torque_kNm,sinkage_mm", "3,2,20,5.4,0.3,0.04,20"},
+      {"Run,Load [kN],Slip [%],Speed [m/s],Drawbar pull [N],Torque (N m),Sinkage [cm]", "3,2,20,1.5,300,40,2"},
+      {"RUN,Load kN,Slip,speed_mm_s,Drawbar-pull_N,Torque Nm,SINKAGE_mm", "3,2,0.2,1500,300,40,20"},
+  };
+  for (const auto& [header, row] : alike) {
+    SCOPED_TRACE(header);
+    const auto run = read(header, row);
+    EXPECT_EQ(run.at.run, plain.at.run);
+    EXPECT_DOUBLE_EQ(run.at.load, plain.at.load);
+    EXPECT_DOUBLE_EQ(run.at.slip, plain.at.slip);
+    EXPECT_DOUBLE_EQ(run.at.speed, plain.at.speed);
+    EXPECT_DOUBLE_EQ(*run.drawbar_pull, *plain.drawbar_pull);
+    EXPECT_DOUBLE_EQ(*run.torque, *plain.torque);
+    EXPECT_DOUBLE_EQ(*run.sinkage, *plain.sinkage);
+  }
+  for (const char* unlike : {"load_kg", "load", "slip_max_percent", "loads_kN", "load_kN_set", "load [kPa]"})
+    EXPECT_THAT(refused(good_yaml, std::string("load_N,slip,torque_Nm,") + unlike + "\n1,0,1,1\n"),
+                HasSubstr(std::string("unknown column '") + unlike + "'"));
+  EXPECT_THAT(refused(good_yaml, "load_N,load_kN,slip,torque_Nm\n1,1,0,1\n"), HasSubstr("both hold 'load'"));
+}
+
+/// "Weight N: load [N]" of each column of a table, as they are guessed.
+std::vector<std::string> guesses(const std::string& csv) {
+  std::vector<std::string> all;
+  for (const LikelyColumn& one : likely_columns(parse_csv(make_source_text(csv, "runs.csv"))))
+    all.push_back(one.header + (one.column ? ": " + one.column->quantity + " [" + one.unit + "]" : ""));
+  return all;
+}
+
+TEST(LikelyColumns, AreThoseThatSpreadsheetsCallSo) {
+  EXPECT_THAT(guesses("Test no.,Test point,Weight N,Slip %,Pull N,Torque Nm,Depth mm,Remarks\n1,a,1,5,1,1,1,wet\n"),
+              ElementsAre("Test no.: run []", "Test point: setpoint []", "Weight N: load [N]", "Slip %: slip [%]",
+                          "Pull N: drawbar_pull [N]", "Torque Nm: torque [Nm]", "Depth mm: sinkage [mm]", "Remarks"));
+  EXPECT_THAT(guesses("Fz [kN],Slip ratio,Fx [kN],Date\n1,0.2,1,3 May\n"),
+              ElementsAre("Fz [kN]: load [kN]", "Slip ratio: slip [-]", "Fx [kN]: drawbar_pull [kN]", "Date"));
+}
+
+TEST(LikelyColumns, GoByTheirCellsToo) {
+  EXPECT_THAT(guesses("Slip ratio\n0.2\n20\n"), ElementsAre("Slip ratio: slip [%]")) << "no share is above 1";
+  EXPECT_THAT(guesses("Test\nA1\nA2\n"), ElementsAre("Test")) << "a run's number is a number";
+  EXPECT_THAT(guesses("Weight kg\n80\n"), ElementsAre("Weight kg: load [kgf]")) << "a mass on a wheel is a weight";
+  EXPECT_THAT(guesses("Depth of rut mm\n80\n"), ElementsAre("Depth of rut mm")) << "another depth";
+  EXPECT_THAT(guesses("Weight\n80\n"), ElementsAre("Weight: load []")) << "only its author knows";
+  EXPECT_THAT(guesses("Weight N,load_N\n1,1\n"), ElementsAre("Weight N", "load_N: load [N]")) << "our name first";
 }
 
 // Semicolons and decimal commas are read (DecimalCommas); tabs are not, and the commas in such rows are no cells.
@@ -224,7 +283,19 @@ TEST(CampaignRefuses, TextInANumber) {
     EXPECT_THAT(refused_csv("122,", std::string(broken) + ","),
                 AllOf(StartsWith("runs.csv:3:19: column 'drawbar_pull_N': expected a finite number, not '#"),
                       HasSubstr("hint: the spreadsheet could not compute this cell: mend its formula, or leave")));
-  EXPECT_THAT(refused_csv("122,", "\"1,5\","), HasSubstr("a decimal point is '.'"));
+  const std::pair<const char*, const char*> told[] = {
+      {"\"1,5\",", "hint: write 1.5: a decimal point is '.'"},
+      {"\"1,400\",", "hint: this may be 1400 or 1.4: write it without the comma"},
+      {"\"1,400,000\",", "hint: write 1400000: thousands are not separated"},
+      {"\"1,400.5\",", "hint: write 1400.5: thousands are not separated"},
+      {"03. Apr,", "a number such as 3.4 for a date: set the column's format to Number"},
+      {"4-May,", "a number such as 3.4 for a date"},
+      {"3/4/2026,", "a number such as 3.4 for a date"},
+  };
+  for (const auto& [cell, hint] : told) EXPECT_THAT(refused_csv("122,", cell), HasSubstr(hint)) << cell;
+  std::string endless = "\"1";
+  for (int i = 0; i < 200'000; ++i) endless += ",000";
+  EXPECT_THAT(refused_csv("122,", endless + "\","), HasSubstr("a decimal point is '.'"));
   EXPECT_THAT(refused_csv("2,a,1000", "two,a,1000"), StartsWith("runs.csv:3:1: column 'run'"));
   EXPECT_THAT(refused_csv("0.1,2,", "0.1,1.5,"), HasSubstr("column 'pass': expected a whole number, not '1.5'"));
 }
@@ -307,6 +378,7 @@ TEST(CampaignRefuses, MistakesInTheYaml) {
   EXPECT_THAT(refused_yaml("force_frame: wheel", "force_fram: wheel"),
               StartsWith("campaign.yaml:21:1: unknown key 'force_fram', did you mean 'force_frame'?"));
   EXPECT_THAT(refused_yaml("force_frame: wheel", "force_frame: wheels"), HasSubstr("did you mean 'wheel'?"));
+  EXPECT_THAT(refused_yaml("wheel:\n", "tire:\n"), HasSubstr("unknown key 'tire', did you mean 'wheel'?"));
   EXPECT_THAT(refused_yaml("cohesion: ", "cohesoin: "), HasSubstr("did you mean 'cohesion'?"));
   EXPECT_THAT(refused_yaml("format: soilbin-campaign/1", "format: soilbin-case/1"), HasSubstr("unknown format"));
   EXPECT_THAT(refused_yaml("  shear_modulus:  20 mm\n", ""), HasSubstr("key 'shear_modulus' is missing"));

@@ -68,6 +68,15 @@ TEST(DeclaredDoubts, AWheelByItselfIsJudgedToo) {
   EXPECT_THAT(doubts(tire), ElementsAre(tells(DoubtKind::unusual_radius, {25000, 20, 2000})));
 }
 
+// 110 bar for 1.1 bar.
+TEST(DeclaredDoubts, APressureThatNoTireHasIsTold) {
+  Tire tire = wheel_on_sand().tire;
+  tire.inflation_pressure = 110e3;
+  EXPECT_THAT(doubts(tire), IsEmpty());
+  tire.inflation_pressure = 110e5;
+  EXPECT_THAT(doubts(tire), ElementsAre(tells(DoubtKind::unusual_inflation, {11000, 1500})));
+}
+
 TEST(DeclaredDoubts, ASoilThatCarriesNothingIsTold) {
   SemiEmpiricalSoil soil = dry_sand();
   soil.k_c.value = 0.0, soil.k_phi.value = -5.0;

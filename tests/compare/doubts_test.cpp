@@ -263,6 +263,15 @@ TEST(Doubts, MorePowerOutThanInIsTold) {
   EXPECT_THAT(doubts(question, study), ElementsAre(tells(DoubtKind::power_from_nothing)));
 }
 
+TEST(Doubts, ACampaignWithoutASinkageOverlooksEffects) {
+  Campaign campaign = modelled_campaign();
+  campaign.runs.front().sinkage.reset();
+  EXPECT_FALSE(tell_of(doubts(campaign), DoubtKind::no_sinkage)) << "some have one";
+  for (auto& run : campaign.runs) run.sinkage.reset();
+  EXPECT_TRUE(tell_of(doubts(campaign), DoubtKind::no_sinkage));
+  EXPECT_THAT(of_mistaken_columns(doubts_before_fit(campaign)), IsEmpty()) << "a verdict holds all the same";
+}
+
 TEST(Doubts, MostSinkagesNegativeMeansAFlippedSign) {
   Campaign campaign = modelled_campaign();
   for (auto& run : campaign.runs) *run.sinkage *= -1;
@@ -270,7 +279,7 @@ TEST(Doubts, MostSinkagesNegativeMeansAFlippedSign) {
   for (std::size_t i = 0; i < 4; ++i) *campaign.runs[i].sinkage *= -1;
   EXPECT_THAT(doubts(campaign), IsEmpty()) << "half of them may stand above the surface";
   for (auto& run : campaign.runs) run.sinkage.reset();
-  EXPECT_THAT(doubts(campaign), IsEmpty()) << "what was not measured has no sign";
+  EXPECT_THAT(doubts(campaign), ElementsAre(tells(DoubtKind::no_sinkage))) << "what was not measured has no sign";
 }
 
 TEST(Doubts, OfACampaignAreThoseOfTheModelThatAnswers) {

@@ -126,6 +126,9 @@ TEST(CaseReader, AMisspeltKeyIsShownWithTheRightOne) {
             "    |   ^\n"
             "  hint: keys here: name, source, radius, width, lugs, inflation_pressure, carcass_pressure, deflection, "
             "section_height, construction");
+  EXPECT_THAT(refused(with("tire:", "wheel:")), HasSubstr("unknown key 'wheel', did you mean 'tire'?"));
+  EXPECT_THAT(refused("format: soilbin-case/1\nsoil dry-sand\n"),
+              HasSubstr("case.yaml:2:1: 'soil dry-sand' has no colon behind 'soil'"));
   EXPECT_THAT(refused(with("count", "cuont")), HasSubstr("case.yaml:6:24: unknown key 'cuont', did you mean 'count'?"));
   EXPECT_THAT(refused(with("name: example", "nmae: example")),
               StartsWith("case.yaml:2:1: unknown key 'nmae', did you mean 'name'?"));
@@ -261,7 +264,7 @@ TEST(CaseReader, TiresAndSoilsCanBeNamed) {
   EXPECT_EQ(parse(with(tire, "tire: paper-lugged\n")).scenario.tire.radius, 0.496);
   EXPECT_THAT(refused(with(tire, "tire: paper-luged\n")),
               AllOf(StartsWith("case.yaml:3:7: no tire 'paper-luged' in the library, did you mean 'paper-lugged'?"),
-                    HasSubstr("hint: tires: ")));
+                    HasSubstr("hint: soilbin list tires shows the ")));
   EXPECT_THAT(refused(with(tire, "tire: ./nothing.yaml\n")), HasSubstr("no such tire file"));
   EXPECT_THAT(refused(with(tire, "tire: /dev/zero\n")), HasSubstr("no such tire file"));
   EXPECT_THAT(refused(with(tire, "tire: [a]\n")), HasSubstr("a name of the library, or a path; not a list"));
@@ -279,6 +282,9 @@ TEST(CaseReader, FindsByNameOrSaysWhatThereIs) {
   const Library library({SOILBIN_SOURCE_DIR "/cases"});
   EXPECT_EQ(find_soil("dry-sand", library).semi_empirical->k_phi.value, 1528430.0);
   EXPECT_THAT(refusal([&] { find_soil("dry-snad", library); }), HasSubstr("did you mean 'dry-sand'?"));
+  EXPECT_THAT(refusal([&] { find_soil("wet loam", library); }),
+              AllOf(HasSubstr("did you mean 'sandy-loam-wet'?"), HasSubstr("hint: soilbin list soils shows the "),
+                    testing::Not(HasSubstr("lunar"))));
 }
 
 }  // namespace

@@ -28,5 +28,19 @@ TEST(NearestWord, AWordOfTheFieldGoesBeforeAMisspelling) {
   EXPECT_EQ(did_you_mean("grouser", {"radius", "width"}), "") << "what the word means isn't there";
 }
 
+TEST(NearestWord, ANameIsFoundByItsWords) {
+  const std::vector<std::string> soils = {"clayey-soil",        "dry-sand",   "lean-clay",
+                                          "rubicon-sandy-loam", "sandy-loam", "sandy-loam-wet"};
+  EXPECT_EQ(did_you_mean_name("wet loam", soils), ", did you mean 'sandy-loam-wet'?");
+  EXPECT_EQ(did_you_mean_name("Loam", soils), ", did you mean 'sandy-loam', 'rubicon-sandy-loam' or 'sandy-loam-wet'?");
+  EXPECT_EQ(did_you_mean_name("sand", soils), ", did you mean 'dry-sand'?") << "a whole word goes before a beginning";
+  EXPECT_EQ(did_you_mean_name("dry-snad", soils), ", did you mean 'dry-sand'?") << "a misspelling goes first";
+  EXPECT_EQ(did_you_mean_name("gravel", soils), "");
+  EXPECT_EQ(did_you_mean_name("--", soils), "");
+  EXPECT_EQ(did_you_mean_name("a", std::vector<std::string>(9, "a-b")).size(),
+            did_you_mean_name("a", std::vector<std::string>(5, "a-b")).size())
+      << "five at most";
+}
+
 }  // namespace
 }  // namespace soilbin

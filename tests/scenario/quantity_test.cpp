@@ -187,6 +187,19 @@ TEST(Quantity, APercentageWithoutItsSignIsGuessed) {
       << "no share";
 }
 
+// tan 5.7106 deg = 0.1.
+TEST(Quantity, AGradeIsToldAsAnAngle) {
+  const Measure incline{"deg", any_value};
+  EXPECT_THAT(test::refusal([&] { read_quantity("10 %", incline); }),
+              testing::HasSubstr("which as a grade is 5.711 deg"));
+  EXPECT_THAT(test::refusal([&] { read_quantity("-100%", incline); }), testing::HasSubstr("is -45 deg"));
+  for (const auto& [text, unit] : {std::pair{"10", "deg"}, {"10 %", "N"}})
+    EXPECT_THAT(test::refusal([&, text = text, unit = unit] {
+                  read_quantity(text, {unit, any_value});
+                }),
+                testing::Not(testing::HasSubstr("grade")));
+}
+
 TEST(Quantity, AMisspeltUnitIsFirstComparedWithThoseOfItsDimension) {
   const auto told = [](const char* text, const char* unit) {
     return test::refusal([&] { read_quantity(text, {unit, {}}); });

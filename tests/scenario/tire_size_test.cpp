@@ -82,6 +82,19 @@ TEST(TireSize, AStoredOneGoesFirst) {
   EXPECT_NEAR(asked.scenario.tire.radius, 17 * 0.0254 + 0.7 * 0.48, 1e-12);
 }
 
+// One sign less or more is another tire by its size: who meant the one that is stored reads of it.
+TEST(TireSize, NamesAStoredOneOfNearlyItsSize) {
+  for (const char* size : {"14.00R21", "14R20", "14.00-20"})
+    EXPECT_THAT(find_tire(size, sized_library()).source, HasSubstr("; nearly this size in the library: 14.00R20"))
+        << size;
+  EXPECT_THAT(find_tire("18.4R38", sized_library()).source, HasSubstr("nearly this size in the library: 18.4-38"));
+  for (const char* size : {"12.00R20", "14.00R24", "540/65R30"})
+    EXPECT_THAT(find_tire(size, sized_library()).source, Not(HasSubstr("nearly"))) << size;
+  EXPECT_TRUE(nearly_same_size("14R20", "14.00-21"));
+  EXPECT_FALSE(nearly_same_size("14R20", "14/80R20")) << "sides of another height";
+  EXPECT_FALSE(nearly_same_size("14R20", "rover-wheel"));
+}
+
 TEST(TireSize, RefusesWhatNoTireHas) {
   const std::vector<std::pair<const char*, const char*>> wrong = {
       {"600/650R28", "sides of 650 % of the width is not from 20 to 110"},
@@ -90,6 +103,7 @@ TEST(TireSize, RefusesWhatNoTireHas) {
       {"600/65", "it is read as width"},
       {"600/65R", "it is read as width"},
       {"18.4-", "it is read as width"},
+      {"30.5L-32", "it is read as width"},
       {"18..4-38", "it is read as width"},
       {"20x43.00-25", "an outer diameter of 20 in"},
   };

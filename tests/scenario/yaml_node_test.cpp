@@ -55,6 +55,16 @@ TEST(YamlNode, RefusesWhatTheFormatsDoNotHave) {
   EXPECT_THAT(refused_yaml(""), HasSubstr("empty"));
 }
 
+// A line that begins a column beside its block, and a key without its colon: the parser's own words name neither.
+TEST(YamlNode, SaysWhichLineStandsOutOfItsBlock) {
+  EXPECT_THAT(refused_yaml("a:\n  b: 1\n   c: 2\n"),
+              HasSubstr("hint: this line begins in column 4, the one before it in column 3: lines of one block"));
+  EXPECT_THAT(refused_yaml("a:\n  b: 1\n c: 2\n"), HasSubstr("begins in column 2, the one before it in column 3"));
+  EXPECT_THAT(refused_yaml("a: 1\n\n# b\n c: 2\n"), HasSubstr("begins in column 2, the one before it in column 1"));
+  for (const char* without_colon : {"a:\n  d: 3\n  b 1 mm\nc: 2\n", "b 1 mm\na: 2\n", "a:\n  b 1 mm\n  c: 2\n"})
+    EXPECT_THAT(refused_yaml(without_colon), HasSubstr("hint: 'b 1 mm' has no colon")) << without_colon;
+}
+
 TEST(YamlNode, RefusesBombs) {
   EXPECT_THAT(refused_yaml("a: &a [x, x]\nb: &b [*a, *a]\nc: [*b, *b]\n"), HasSubstr("anchors"));
   EXPECT_THAT(refused_yaml(std::string(100'000, '[')), HasSubstr("nested deeper than 24 levels"));
