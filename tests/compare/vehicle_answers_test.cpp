@@ -214,6 +214,24 @@ TEST(VehicleAnswers, ADriveThatOtherSoilsEndAlikeHasAnError) {
   EXPECT_GT(level.travelled_error.value(), 0.0);
 }
 
+TEST(VehicleAnswers, ADriveErrsWithTheSoilThatItIsDrivenOn) {
+  VehicleCase on_sand = library_vehicle("rover");
+  on_sand.soil = find_soil("dry-sand", Library({cases_folder}));
+  on_sand.condition.slope = 14 * degree, on_sand.drive.duration = 1.5;
+  VehicleCase led_there = on_sand;
+  led_there.soil = find_soil("grc-1", Library({cases_folder}));
+  led_there.drive.profile.resize(1);
+  led_there.drive.profile[0].soil = on_sand.soil, led_there.drive.profile[0].longitudinal_incline = 14 * degree;
+  const double expected = driven_answers(on_sand, wheels_of(on_sand), wheel_model, 2).travelled_error.value();
+  const DrivenAnswers there = driven_answers(led_there, wheels_of(led_there), wheel_model, 2);
+  ASSERT_GT(expected, 0.0);
+  EXPECT_NEAR(there.travelled_error.value(), expected, 1e-3 * expected);
+  EXPECT_TRUE(std::ranges::any_of(
+      there.moved, [](const MovedVehicleDrive& one) { return one.title == "friction angle of dry-sand"; }));
+  EXPECT_THAT(report_on(there).heading, HasSubstr("on dry-sand"));
+  EXPECT_THAT(report_on(there).heading, testing::Not(HasSubstr("grc-1")));
+}
+
 /// Carcasses of 50 and 250 kPa, each to 10 kPa, under tires of these names.
 VehicleCase with_two_carcasses(const std::string& front, const std::string& rear) {
   const auto axle = [](const std::string& name, double x, const std::string& tire, int carcass) {
