@@ -21,7 +21,8 @@ std::vector<Presumed> presumed(const EffectForm& form, const Tire& tire) {
   for (const Presumption& p : form.presumes) {
     if (p.declared(tire)) continue;
     const double value = p.presumed(tire);
-    const double shown = std::stod(fmt::format("{:.6g}", value));  // 5.5 mm, not 5.5000000000000005 mm
+    // 5.5 mm, not 5.5000000000000005 mm
+    const double shown = read_number(fmt::format("{:.6g}", value)).value_or(value);
     std::string words = fmt::format("{} = {}", p.name, write_quantity(shown, std::string(p.unit)));
     if (!words.ends_with(fmt::format("= {}", p.rule))) words += fmt::format(" ({})", p.rule);
     all.push_back({std::string(p.key), value, std::move(words), std::string(p.else_do)});

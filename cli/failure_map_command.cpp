@@ -24,7 +24,8 @@
 namespace soilbin::cli {
 namespace {
 
-/// Most conditions that a Gaussian process learns from in seconds.
+/// Beyond that learning takes hours: its time grows as the cube of the conditions (gaussian_process.hpp), and each
+/// statement's rounds learn anew.
 constexpr long long most_conditions_of_map = 1000;
 
 struct FailureMapFlags {
@@ -114,8 +115,12 @@ compare::InclineMap map_of(const FailureMapFlags& asked, const Case& question, c
   return map;
 }
 
-void show_run(const dem::Progress& at) {
+void stop_map_when_asked() {
   if (interrupt_asked()) throw Interrupted();
+}
+
+void show_run(const dem::Progress& at) {
+  stop_map_when_asked();
   show_progress_line(std::string(at.stage));
 }
 
@@ -191,7 +196,8 @@ int failure_map(FailureMapFlags& asked, CLI::App& command, const Session& sessio
                                           .watch = show_run},
                                  .rounds = asked.rounds,
                                  .fresh = asked.fresh,
-                                 .tolerance = read_flag("--tolerance", asked.tolerance, {"%", above_zero})};
+                                 .tolerance = read_flag("--tolerance", asked.tolerance, {"%", above_zero}),
+                                 .look = stop_map_when_asked};
   if (!grains_asked) {
     const compare::FailureMapResult result = compare::learn_map(map, {}, how);
     clear_progress_line();

@@ -9,6 +9,7 @@
 #include "cli/soil_bin.hpp"
 #include "compare/recorded/run_store.hpp"
 #include "compare/recorded/step_pair.hpp"
+#include "compare/report/sealed_json.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/file_bytes.hpp"
 #include "scenario/nearest_word.hpp"
@@ -53,7 +54,9 @@ int merge(const RecordOptions& asked) {
   std::vector<std::string> shards(asked.names.begin() + 1, asked.names.end());
   const compare::Record whole = compare::merged(read_records(shards));
   refuse_other_runs(asked.names.front(), whole);
-  write_file_atomically(asked.names.front(), compare::record_text(whole));
+  const std::string text = compare::record_text(whole);
+  compare::need_readable_size(asked.names.front(), text);
+  write_file_atomically(asked.names.front(), text);
   fmt::print("wrote {}: {}{} of {}\n", asked.names.front(), compare::counted(whole.runs.size(), "run"),
              whole.half_step.empty() ? "" : fmt::format(" and {} at half the time step", whole.half_step.size()),
              compare::counted(shards.size(), "record"));

@@ -8,6 +8,7 @@
 #include <regex>
 
 #include "scenario/errors.hpp"
+#include "scenario/quantity.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin {
@@ -55,7 +56,7 @@ Size read(const std::string& text) {
   const std::string size = tidy(text);
   if (!std::regex_match(size, part, pattern))
     refuse(text, "it is read as width, height of the sides, construction (R, B, D or -) and rim");
-  const auto value = [&](std::size_t k) { return std::stod(part[k]); };
+  const auto value = [&](std::size_t k) { return read_number(part[k].str()).value(); };
   Size read{.rim = value(5)};
   if (part[4] == "R" || part[4] == "ZR") read.construction = Construction::radial;
   if (part[2] == "X")

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "compare/bevameter/plate_tests.hpp"
 #include "compare/report/number_text.hpp"
@@ -15,6 +16,8 @@
 
 namespace soilbin::compare {
 namespace {
+
+constexpr std::size_t fewest_shear_readings = 6;  // of a test
 
 enum class ShearHolds { displacement, shear_stress, normal_stress, label, nothing };
 
@@ -82,6 +85,51 @@ void need_possible_sizes(const std::vector<const CsvRow*>& rows, const std::vect
     }
 }
 
+struct ShearReading {
+  std::string test{};
+  double normal_stress = 0.0, displacement = 0.0, shear_stress = 0.0;  ///< [SI]
+};
+
+/// Labels of tests whose normal stress was logged, not set: few readings share one.
+std::set<std::string> labels_of_logged_stress(const std::vector<ShearReading>& readings) {
+  std::map<std::string, std::pair<std::size_t, std::set<double>>> seen;
+  for (const ShearReading& one : readings) ++seen[one.test].first, seen[one.test].second.insert(one.normal_stress);
+  std::set<std::string> logged;
+  for (const auto& [label, counted] : seen)
+    if (counted.second.size() > 1 && counted.first < fewest_shear_readings * counted.second.size())
+      logged.insert(label);
+  return logged;
+}
+
+std::vector<MeasuredShear> tests_of(const std::vector<ShearReading>& readings, const SourceText& csv) {
+  const std::set<std::string> logged = labels_of_logged_stress(readings);
+  std::vector<MeasuredShear> tests;
+  std::map<std::pair<std::string, double>, std::size_t> places;
+  std::vector<std::vector<double>> stresses;  // of each test
+  for (const ShearReading& one : readings) {
+    const double set_stress = logged.contains(one.test) ? 0.0 : one.normal_stress;
+    const auto [place, is_new] = places.try_emplace({one.test, set_stress}, tests.size());
+    if (is_new) tests.push_back({one.test, {one.normal_stress, {}, {}}}), stresses.emplace_back();
+    if (!(one.displacement > 0.0 && one.shear_stress > 0.0)) continue;
+    stresses[place->second].push_back(one.normal_stress);
+    tests[place->second].curve.displacement.push_back(one.displacement);
+    tests[place->second].curve.shear_stress.push_back(one.shear_stress);
+  }
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    if (!logged.contains(tests[k].test) || stresses[k].empty()) continue;
+    const auto [least, most] = std::ranges::minmax(stresses[k]);
+    constexpr double of_one_test = 1.5;
+    if (most > of_one_test * least)
+      throw InputError({csv.file},
+                       fmt::format("the normal stress of test '{}' goes from {:.4g} to {:.4g} kPa", tests[k].test,
+                                   least / 1e3, most / 1e3),
+                       "", "name each test in a column without a unit, such as test");
+    tests[k].curve.normal_stress = mean_of(stresses[k]).value;
+    tests[k].normal_stress_spread = spread_of(stresses[k]);
+  }
+  return tests;
+}
+
 }  // namespace
 
 std::vector<MeasuredShear> read_shear(const SourceText& csv,
@@ -108,25 +156,20 @@ std::vector<MeasuredShear> read_shear(const SourceText& csv,
     if (columns[i].holds == ShearHolds::label) need_label_of_tests(rows, i, table, csv);
   need_possible_sizes(rows, columns, table, csv);
 
-  std::vector<MeasuredShear> tests;
-  std::map<std::pair<std::string, double>, std::size_t> places;
+  std::vector<ShearReading> readings;
   for (const CsvRow* row : rows) {
-    std::string name;
+    ShearReading reading;
     for (std::size_t i = 0; i < columns.size(); ++i)
-      if (columns[i].holds == ShearHolds::label) name += (name.empty() ? "" : ", ") + row->cells[i].text;
-    const double stress =
-        normal ? reading_in(row->cells[*normal], columns[*normal].name, columns[*normal].unit, csv) : *normal_stress;
-    if (!(stress > 0.0)) csv.refuse(row->cells[*normal].offset, "a normal stress must be above 0");
-    const auto [place, is_new] = places.try_emplace({name, stress}, tests.size());
-    if (is_new) tests.push_back({name, {.normal_stress = stress, .displacement = {}, .shear_stress = {}}});
-    const double j = reading_in(row->cells[*displacement], columns[*displacement].name, columns[*displacement].unit,
-                                csv),
-                 tau = reading_in(row->cells[*shear], columns[*shear].name, columns[*shear].unit, csv);
-    if (!(j > 0.0 && tau > 0.0)) continue;
-    tests[place->second].curve.displacement.push_back(j);
-    tests[place->second].curve.shear_stress.push_back(tau);
+      if (columns[i].holds == ShearHolds::label)
+        reading.test += (reading.test.empty() ? "" : ", ") + row->cells[i].text;
+    const auto read = [&](std::size_t i) { return reading_in(row->cells[i], columns[i].name, columns[i].unit, csv); };
+    reading.normal_stress = normal ? read(*normal) : *normal_stress;
+    if (normal && !(reading.normal_stress > 0.0))
+      csv.refuse(row->cells[*normal].offset, "a normal stress must be above 0");
+    reading.displacement = read(*displacement), reading.shear_stress = read(*shear);
+    readings.push_back(std::move(reading));
   }
-  return tests;
+  return tests_of(readings, csv);
 }
 
 namespace {
@@ -135,7 +178,7 @@ constexpr double hump_share = 0.9;  // of the peak, below which the end of a tes
 
 ShearTestFit fit_of(const MeasuredShear& test) {
   const ShearCurve& curve = test.curve;
-  if (curve.displacement.size() < 6)
+  if (curve.displacement.size() < fewest_shear_readings)
     throw InputError(
         fmt::format("test '{}' has {} readings with a displacement and a shear stress above 0: six are needed",
                     test.test, curve.displacement.size()));

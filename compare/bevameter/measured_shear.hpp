@@ -21,12 +21,15 @@ namespace soilbin::compare {
 struct MeasuredShear {
   std::string test;  ///< what tells it from others: "dense, 2"
   ShearCurve curve;  ///< readings with a displacement and a shear stress above 0, in the order of the file
+  double normal_stress_spread = 0.0;  ///< standard deviation of a normal stress that was logged [Pa]; the curve's is
+                                      ///< its mean
 };
 
 /// Reads a CSV with one row a reading. A column's name ends in its unit: displacement_mm, shear_stress_kPa,
-/// normal_stress_kPa. Columns without a unit tell one test from another; others are left aside. `only`: column and
-/// value; rows in which they differ are left out. `normal_stress` [Pa]: of all tests, where no column tells it. Throws
-/// InputError with file, line and hint.
+/// normal_stress_kPa. Columns without a unit tell one test from another, and so does the normal stress where it is one
+/// that was set: where it has fewer than six readings a value, it was logged, and is a test's mean. Other columns are
+/// left aside. `only`: column and value; rows in which they differ are left out. `normal_stress` [Pa]: of all tests,
+/// where no column tells it. Throws InputError with file, line and hint.
 std::vector<MeasuredShear> read_shear(const SourceText& csv,
                                       const std::vector<std::pair<std::string, std::string>>& only = {},
                                       std::optional<double> normal_stress = std::nullopt);

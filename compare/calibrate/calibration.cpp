@@ -227,8 +227,8 @@ class Work {
  private:
   bool may_run() const { return static_cast<int>(answer_.runs.size()) < options_.most_runs; }
 
-  /// From the store, or made now and kept. A repetition at the same point takes the next seed.
-  void run(Stage stage, const VectorXd& values, double chance = 0.0) {
+  /// From the store, or made now and kept; whether there is one. A repetition at the same point takes the next seed.
+  bool run(Stage stage, const VectorXd& values, double chance = 0.0) {
     std::uint64_t seed = options_.seed;
     double seconds = 0;
     for (const auto& [when, before] : answer_.runs) seed += before.values == values, seconds += before.seconds;
@@ -237,8 +237,9 @@ class Work {
     tell(options_.watch,
          fmt::format("{}: run {} of at most {}{}", stage_name(stage), done + 1, options_.most_runs, best), done,
          static_cast<std::size_t>(options_.most_runs), seconds);
-    if (std::optional<Experiment> made = obtain(test_, {values, seed}, store_))
-      answer_.runs.push_back({stage, std::move(*made)});
+    std::optional<Experiment> made = obtain(test_, {values, seed}, store_);
+    if (made) answer_.runs.push_back({stage, std::move(*made)});
+    return made.has_value();
   }
 
   void run_design(const LevelTable& design) {
@@ -249,6 +250,7 @@ class Work {
   /// Range analysis and analysis of variance, where every run of the design has a result. The runs' own errors are the
   /// measure only where no column is free: a column also holds interactions of other factors, which they don't know of.
   void analyse(const LevelTable& design) {
+    if (static_cast<int>(answer_.runs.size()) != design.runs()) return;
     for (const CalibrationRun& made : answer_.runs)
       if (made.experiment.results.empty()) return;
     std::vector<std::string> names;
@@ -279,13 +281,12 @@ class Work {
     for (const Candidate& one : spread) run(Stage::candidates, one.values, one.chance);
   }
 
-  /// Runs the likeliest point until one that was run is likely enough.
+  /// Runs the likeliest point until one that was run is likely enough, or there is none to be had.
   void refine() {
     while (may_run() && !test_.waits()) {
       const LikelyPoints points = learn();
       const Candidate likeliest = points.likeliest(), tried = points.likeliest_tried();
-      if (tried.chance >= options_.probability) return;
-      run(Stage::refinement, likeliest.values, tried.chance);
+      if (tried.chance >= options_.probability || !run(Stage::refinement, likeliest.values, tried.chance)) return;
     }
   }
 

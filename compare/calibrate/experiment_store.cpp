@@ -95,15 +95,14 @@ ExperimentStore::ExperimentStore(std::filesystem::path file, Writers writers)
   kept_.look();
 }
 
-std::optional<Experiment> ExperimentStore::put(Tests& tests, const std::string& key, Experiment experiment) {
+const Experiment& ExperimentStore::put(Tests& tests, const std::string& key, Experiment experiment) {
   const auto test = std::ranges::find_if(tests, [&](const auto& one) { return one.first == key; });
   auto& into = test != tests.end() ? test->second : tests.emplace_back(key, std::vector<Experiment>{}).second;
+  experiment.from_store = true;
   const auto known = std::ranges::find_if(into, [&](const Experiment& one) { return answers(one, experiment); });
-  std::optional<Experiment> before;
-  if (known != into.end()) before = *known, into.erase(known);
-  experiment.sealed = experiment.from_store = true;
-  into.push_back(std::move(experiment));
-  return before;
+  if (known == into.end()) return into.emplace_back(std::move(experiment));
+  if (experiment.sealed && !known->sealed && same_answer(*known, experiment)) *known = std::move(experiment);
+  return *known;
 }
 
 /// Takes the experiments of the file and its journal in place of those known.
@@ -171,13 +170,15 @@ void ExperimentStore::merge(const std::filesystem::path& other) {
   if (!std::filesystem::exists(other)) throw InputError(other.string() + ": no such file");
   const ExperimentStore theirs(other);
   const auto take = [&] {
+    Tests all = tests_;
     for (const auto& [key, experiments] : theirs.tests_)
       for (const Experiment& fresh : experiments)
-        if (const std::optional<Experiment> known = put(tests_, key, fresh); known && !same_answer(*known, fresh))
+        if (!same_answer(put(all, key, fresh), fresh))
           throw InputError(
               fmt::format("{}: another answer to an experiment than in {}\n  hint: the same program gives the "
                           "same bits on every machine; different sources may not",
                           other.string(), file_.string()));
+    tests_ = std::move(all);
   };
   kept_.add(take, "");
 }

@@ -83,7 +83,7 @@ class ExperimentStore {
   /// Keeps it beside what the file has by now. Throws std::runtime_error where the file can't be written.
   void add(const VirtualTest& test, const Experiment& experiment);
   /// Keeps the experiments of another store's file beside its own. Throws InputError that names the file where both
-  /// have the same experiment with different results, and for what is no store.
+  /// have the same experiment with different results, and for what is no store; nothing is taken then.
   void merge(const std::filesystem::path& other);
   std::size_t size() const;
   /// The flags of the commands that made it, by their names, so that its answers can be asked for again without them;
@@ -104,8 +104,9 @@ class ExperimentStore {
   using Tests = std::vector<std::pair<std::string, std::vector<Experiment>>>;
   static Tests parsed(const SourceText& source, Asked& asked);
   static std::string text_of(const Tests& tests, const Asked& asked);
-  /// Puts an experiment in place of the one of the same spec; gives that.
-  static std::optional<Experiment> put(Tests& tests, const std::string& key, Experiment experiment);
+  /// Puts an experiment beside the others; gives the one of its spec that is there then. What is known stays, but for
+  /// an experiment without a seal that a sealed one confirms.
+  static const Experiment& put(Tests& tests, const std::string& key, Experiment experiment);
   void read();
 
   std::filesystem::path file_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -23,14 +24,15 @@ double matern(double r) { return (1 + root5 * r + 5 * r * r / 3) * std::exp(-roo
 /// -(dm/dr)/r
 double matern_slope(double r) { return 5.0 / 3.0 * (1 + root5 * r) * std::exp(-root5 * r); }
 
-double scaled_distance(const VectorXd& a, const VectorXd& b, const VectorXd& lengths) {
+double scaled_distance(const auto& a, const auto& b, const VectorXd& lengths) {
   return ((a - b).array() / lengths.array()).matrix().norm();
 }
 
 MatrixXd distances(const MatrixXd& x, const VectorXd& lengths) {
+  const MatrixXd points = x.transpose();  // a column each: no copy a pair
   MatrixXd r = MatrixXd::Zero(x.rows(), x.rows());
   for (Index i = 0; i < x.rows(); ++i)
-    for (Index j = 0; j < i; ++j) r(i, j) = r(j, i) = scaled_distance(x.row(i), x.row(j), lengths);
+    for (Index j = 0; j < i; ++j) r(i, j) = r(j, i) = scaled_distance(points.col(i), points.col(j), lengths);
   return r;
 }
 
@@ -90,7 +92,7 @@ MatrixXd GaussianProcess::trend_terms(const MatrixXd& x) const {
 VectorXd GaussianProcess::covariance_with(const VectorXd& x) const {
   VectorXd k(samples_.size());
   for (Index i = 0; i < k.size(); ++i)
-    k[i] = hyper_.sd * hyper_.sd * matern(scaled_distance(samples_.x.row(i), x, hyper_.lengths));
+    k[i] = hyper_.sd * hyper_.sd * matern(scaled_distance(VectorXd(samples_.x.row(i)), x, hyper_.lengths));
   return k;
 }
 
@@ -184,6 +186,7 @@ class Cost {
   GaussianProcess process(const VectorXd& theta) const { return {samples_, options_.trend, unknowns_.at(theta)}; }
 
   double operator()(const VectorXd& theta, VectorXd& slope) const {
+    options_.look();
     const VectorXd off = (theta - unknowns_.middle).array() / unknowns_.spread.array();
     slope = off.array() / unknowns_.spread.array();
     if (!(off.array().abs() < far).all()) return std::numeric_limits<double>::infinity();
@@ -206,9 +209,20 @@ VectorXd mode_of(const Cost& cost, const SurrogateOptions& options) {
   const Unknowns& unknowns = cost.unknowns();
   // A first look throws for samples that make no sense, before the search hides it.
   static_cast<void>(cost.process(unknowns.middle));
+  VectorXd last, slope;  // the search asks for value and slope of one place one after the other
+  double value = 0.0;
+  std::exception_ptr thrown;
   const gsl::Slope function = [&](std::span<const double> x, std::span<double> gradient) {
-    VectorXd slope;
-    const double value = cost(Eigen::Map<const VectorXd>(x.data(), static_cast<Index>(x.size())), slope);
+    const Eigen::Map<const VectorXd> theta(x.data(), static_cast<Index>(x.size()));
+    if (!thrown && (last.size() != theta.size() || last != theta)) {
+      last = theta;
+      try {
+        value = cost(last, slope);
+      } catch (...) {  // no exception passes through C
+        thrown = std::current_exception();
+        value = std::numeric_limits<double>::infinity(), slope = VectorXd::Zero(theta.size());
+      }
+    }
     Eigen::Map<VectorXd>(gradient.data(), slope.size()) = slope;
     return value;
   };
@@ -220,6 +234,7 @@ VectorXd mode_of(const Cost& cost, const SurrogateOptions& options) {
     for (Index k = 0; k < theta.size() && start > 0; ++k)
       theta[k] += unknowns.spread[k] * (2 * static_cast<double>(random() >> 11) * 0x1p-53 - 1);
     const double found = gsl::minimise(function, {theta.data(), static_cast<std::size_t>(theta.size())}, 1e-5, 200);
+    if (thrown) std::rethrow_exception(thrown);
     if (found < least) least = found, best = theta;
   }
   return best;

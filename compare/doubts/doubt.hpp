@@ -66,6 +66,7 @@ enum class DoubtKind {
   beyond_densities_of_plates,
   // measured shear tests
   one_normal_stress, shear_falls_again, few_shear_tests, no_repeated_shear_tests,
+  varying_normal_stress,
   // drives and pages
   shear_gives_back, grains_left_out,
 };

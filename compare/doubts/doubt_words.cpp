@@ -282,6 +282,8 @@ constexpr DoubtSentence sentences[] = {
     D(no_repeated_shear_tests, "no normal stress was tested twice: the errors are what {:#test} scatter about one line, "
       "and leave out what c, phi and K change from bed to bed; test each stress on two beds or more, or give wider "
       "standard deviations"),
+    D(varying_normal_stress, "the normal stress varies within {:#test}, by {:.2g} % (a standard deviation) in '{}': "
+      "its mean is taken"),
     D(shear_gives_back, "the soil's shear returns {:.3g} J, {:.2g} % of the work of compaction: where the tread's "
       "slip reverses, the model unloads the shear stress along its loading curve, at the present pressure. Real soil "
       "does not return it: the resistance is too small by about this share"),

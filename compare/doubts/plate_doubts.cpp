@@ -85,6 +85,12 @@ Doubts doubts(const MeasuredShearFit& fit, std::span<const MeasuredShear> tests)
   if (fit.tests.size() < 3 && !fit.one_stress) all.push_back({DoubtKind::few_shear_tests, {fit.tests.size()}});
   if (fit.tests.size() >= 3 && !any_stress_twice(tests))
     all.push_back({DoubtKind::no_repeated_shear_tests, {fit.tests.size()}});
+  constexpr double steady = 0.02;
+  const auto share = [](const MeasuredShear& test) { return test.normal_stress_spread / test.curve.normal_stress; };
+  const auto varying = std::ranges::count_if(tests, [&](const MeasuredShear& test) { return share(test) > steady; });
+  if (const auto most = std::ranges::max_element(tests, {}, share); varying > 0)
+    all.push_back(
+        {DoubtKind::varying_normal_stress, {static_cast<std::size_t>(varying), 100 * share(*most), most->test}});
   return all;
 }
 

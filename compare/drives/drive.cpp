@@ -7,6 +7,7 @@
 #include "bekker_wong/limits.hpp"
 #include "bekker_wong/model.hpp"
 #include "compare/report/number_text.hpp"
+#include "scenario/drive_soils.hpp"
 #include "scenario/drive_way.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/fitted_errors.hpp"
@@ -19,23 +20,6 @@ using bekker_wong::DriveRecord;
 using DriveValue = std::function<std::optional<double>(const DriveRecord&)>;
 
 constexpr int few_samples = 40;  // the end and whether it is steady are all that is asked for
-
-/// The soils of the way: the case's own, then those that begin on it.
-std::vector<Soil*> soils_of_way(Case& question) {
-  std::vector<Soil*> soils = {&question.scenario.soil};
-  for (Waypoint& point : question.drive->profile)
-    if (point.soil) soils.push_back(&*point.soil);
-  return soils;
-}
-
-/// Whether this is the same soil again: a value that errs, errs in both.
-bool is_same_soil(const Soil& one, const Soil& other) {
-  if (one.name != other.name || !one.semi_empirical || !other.semi_empirical) return false;
-  return std::ranges::all_of(soil_parameters, [&](const SoilParameter& p) {
-    const Estimate &a = (*one.semi_empirical).*p.value, &b = (*other.semi_empirical).*p.value;
-    return a.value == b.value && a.std_error == b.std_error;
-  });
-}
 
 /// A value that is to be moved, and how.
 struct Uncertain {
@@ -52,7 +36,7 @@ void add_soil_values(const Soil& soil, bool of_case, std::vector<Uncertain>& val
     values.push_back({{soil.name, p.name, p.title, p.unit, p.per_si, of, {below}, {above}},
                       of_case,
                       [soil, &p](Case& asked, double value) {
-                        for (Soil* one : soils_of_way(asked))
+                        for (Soil* one : soils_of_way(asked.scenario.soil, asked.drive->profile))
                           if (is_same_soil(*one, soil))
                             move_value(*one->semi_empirical, p, value, soil.semi_empirical->exponent.value);
                       }});
@@ -79,7 +63,7 @@ void add_effect_values(const Drive& drive, std::vector<Uncertain>& values) {
 
 std::vector<Uncertain> uncertain_values(Case question) {
   std::vector<Uncertain> values;
-  const std::vector<Soil*> soils = soils_of_way(question);
+  const std::vector<Soil*> soils = soils_of_way(question.scenario.soil, question.drive->profile);
   for (std::size_t k = 0; k < soils.size(); ++k) {
     const bool returns = std::any_of(soils.begin(), soils.begin() + static_cast<std::ptrdiff_t>(k),
                                      [&](const Soil* before) { return is_same_soil(*before, *soils[k]); });

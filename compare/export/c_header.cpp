@@ -62,7 +62,7 @@ std::string provenance_of(const ForceTable& table, const CHeaderAbout& about) {
   return text;
 }
 
-/// The code of every table: NAME is its name, SIZE its capitals, ARGUMENTS and PLACE what its function takes.
+/// The code of every table: NAME is its name, ARGUMENTS and PLACE what its function takes.
 constexpr const char* look_up_in_c = R"(
 /* Multilinear between the nodes. Outside the range: the values at the nearest place within it, and NAME_CLAMPED.
  * NAME_NO_ANSWER, and NAN in every value: the place is not a number, or the model has no answer at a corner. */
@@ -168,21 +168,21 @@ std::string c_header_of(const ForceTable& table, const CHeaderAbout& about) {
   }
   std::string text = provenance_of(table, about);
   text += fmt::format(
-      " *\n * NAME_lookup({0}, &answer) returns NAME_OK, NAME_CLAMPED or NAME_NO_ANSWER.\n * It takes {1}.\n"
+      " *\n * {0}_lookup({1}, &answer) returns {0}_OK, {0}_CLAMPED or {0}_NO_ANSWER.\n * It takes {2}.\n"
       " * Signs: drawbar pull along travel, less the slope's share of the load; lateral force to the left of travel.\n"
       " * Not with -ffast-math, which takes NAN away.\n"
-      " */\n#ifndef SIZE_H\n#define SIZE_H\n#include <math.h>\n#include <string.h>\n#ifdef __cplusplus\nextern \"C\" "
+      " */\n#ifndef {3}_H\n#define {3}_H\n#include <math.h>\n#include <string.h>\n#ifdef __cplusplus\nextern \"C\" "
       "{{\n#endif\n\n",
-      place, fmt::join(units, ", "));
-  text += "enum { NAME_OK = 0, NAME_CLAMPED = 1, NAME_NO_ANSWER = 2 };\n";
-  text += fmt::format("enum {{ NAME_axes = {}, NAME_numbers = {} }};\n\ntypedef struct {{\n{}}} NAME_answer;\n\n",
+      name, place, fmt::join(units, ", "), capitals);
+  text += fmt::format("enum {{ {0}_OK = 0, {0}_CLAMPED = 1, {0}_NO_ANSWER = 2 }};\n", name);
+  text += fmt::format("enum {{ {0}_axes = {1}, {0}_numbers = {2} }};\n\ntypedef struct {{\n{3}}} {0}_answer;\n\n", name,
                       table.axes.size(), 2 * table.channels.size(), fields);
   text += "/* Of the interpolation, against the model, in SI. */\n" + limits + "\n" + lists;
   text += fmt::format(
-      "static const double *const NAME_nodes[NAME_axes] = {{{}}};\nstatic const int NAME_sizes[NAME_axes] = {{{}}};\n\n"
-      "/* A row a node, the last axis fastest: the members of NAME_answer. */\nstatic const double "
-      "NAME_table[{}][NAME_numbers] = {{\n",
-      fmt::join(pointers, ", "), fmt::join(sizes, ", "), table.nodes.answers.size());
+      "static const double *const {0}_nodes[{0}_axes] = {{{1}}};\nstatic const int {0}_sizes[{0}_axes] = {{{2}}};\n\n"
+      "/* A row a node, the last axis fastest: the members of {0}_answer. */\nstatic const double "
+      "{0}_table[{3}][{0}_numbers] = {{\n",
+      name, fmt::join(pointers, ", "), fmt::join(sizes, ", "), table.nodes.answers.size());
   for (std::size_t node = 0; node < table.nodes.answers.size(); ++node) {
     std::vector<std::string> row;
     for (const TableChannel& channel : table.channels) row.push_back(c_number(channel.values[node]));
@@ -190,8 +190,9 @@ std::string c_header_of(const ForceTable& table, const CHeaderAbout& about) {
     text += fmt::format("  {{{}}},\n", fmt::join(row, ", "));
   }
   text += "};\n";
-  text += replaced(replaced(look_up_in_c, "ARGUMENTS", fmt::format("{}", fmt::join(arguments, ", "))), "PLACE", place);
-  return replaced(replaced(text, "NAME_", name + "_"), "SIZE_H", capitals + "_H");
+  const std::string code =
+      replaced(replaced(look_up_in_c, "ARGUMENTS", fmt::format("{}", fmt::join(arguments, ", "))), "PLACE", place);
+  return text + replaced(code, "NAME_", name + "_");  // last: a file may be called PLACE
 }
 
 }  // namespace soilbin::compare

@@ -55,12 +55,12 @@ void run(const FailureQuestion& question, const FailureMapOptions& options, cons
 }
 
 void learn(const FailureQuestion& question, FailureMap& map) {
-  map.surrogate.emplace(samples_of(question, map.rows), SurrogateOptions{.seed = map.seed});
+  const SurrogateOptions options{.seed = map.seed, .look = question.look};
+  map.surrogate.emplace(samples_of(question, map.rows), options);
   map.held_out = map.surrogate->mode().leave_one_out();
   map.resolution_error.reset();
   const Samples errors = rows_with(&FailureRow::resolution_error, question, map.rows);
-  if (errors.size() >= static_cast<Index>(question.factors.size()) + 2)
-    map.resolution_error.emplace(errors, SurrogateOptions{.seed = map.seed});
+  if (errors.size() >= static_cast<Index>(question.factors.size()) + 2) map.resolution_error.emplace(errors, options);
 }
 
 /// The difference from the grains as they are, and from infinitely fine ones.
@@ -107,13 +107,17 @@ GaussianProcess believing(const GaussianProcess& process, const VectorXd& x) {
 /// At most `count` points, each where the boundary may be once those before are believed.
 std::vector<VectorXd> boundary_points(const FailureQuestion& question, const FailureMapOptions& options,
                                       const FailureMap& map, const MatrixXd& cloud, int count) {
-  GaussianProcess process = fit_surrogate(samples_of(question, map.rows), {.starts = 3, .seed = options.seed});
+  GaussianProcess process =
+      fit_surrogate(samples_of(question, map.rows), {.starts = 3, .seed = options.seed, .look = question.look});
   FailureMap chosen = map;
   std::vector<VectorXd> points;
   for (int k = 0; k < count; ++k) {
     const MatrixXd fresh = fresh_points(question, chosen, cloud);
     if (fresh.rows() == 0) break;
-    const Index next = next_point(process, fresh, [&](const Estimate& e) { return straddle(e, question.tolerance); });
+    const Index next = next_point(process, fresh, [&](const Estimate& e) {
+      question.look();
+      return straddle(e, question.tolerance);
+    });
     points.push_back(fresh.row(next));
     if (k + 1 == count) break;
     chosen.rows.push_back({from_unit(question.factors, points.back()), std::nullopt});
@@ -317,6 +321,7 @@ std::optional<Box> largest_box(const FailureQuestion& question, const FailureMap
   std::vector<bool> doubtful;
   std::vector<double> bounds;  // on |difference|, a node each
   for (std::size_t i = 0; i < grid.size(); ++i) {
+    question.look();
     bounds.push_back(map.largest_at(question, grid.values(grid.node(i))));
     doubtful.push_back(bounds.back() > question.tolerance);
   }

@@ -36,6 +36,8 @@ struct FailureQuestion {
   double tolerance = 0.10;  ///< share of the load beyond which the models disagree
   /// Whether differences that were asked for are still to come from elsewhere: then no other is asked for.
   std::function<bool()> waits = [] { return false; };
+  /// Called again and again while the map is learnt and searched; may throw to stop.
+  std::function<void()> look = [] {};
 };
 
 struct FailureMapOptions {

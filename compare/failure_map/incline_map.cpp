@@ -191,6 +191,7 @@ std::vector<FreshCheck> check_fresh(const FailureQuestion& question, const Failu
   for (Index i = 0; i < fresh.rows(); ++i)
     checks.push_back({from_unit(question.factors, fresh.row(i)), {}, std::nullopt});
   for (FreshCheck& check : checks) {
+    question.look();
     check.predicted = map.at(question, check.values);
     check.predicted.std_error = std::hypot(check.predicted.std_error, between_runs);
     check.found = question.difference(check.values);
@@ -239,7 +240,8 @@ Doubts doubts_at_rows(const FailureMapResult& result) {
     else if (kind == ModelKind::rft)
       question.study.models.push_back({kind, {}, ""});
   question.scenario.effects.clear();
-  const std::vector<ModelAnswers> study = run_study(question);
+  const std::vector<ModelAnswers> study =
+      run_study(question, [&](std::size_t, std::size_t) { result.question.look(); });
   if (result.asked.of == ModelKind::dem || result.asked.against == ModelKind::dem)
     question.study.models.push_back({ModelKind::dem, {}, ""});
   return doubts(question, study);
@@ -251,6 +253,7 @@ FailureMapResult learn_map(const InclineMap& map, const MapGrains& grains, const
   FailureMapResult result;
   result.asked = map;
   result.question = failure_question(result.asked, grains, how.tolerance);
+  result.question.look = how.look;
   result.map = map_failures(result.question, how.runs);
   if (grains.waits()) return result;
   result.clauses = agreements(result.question, result.map, how.rounds);
@@ -278,6 +281,7 @@ MapShares shares_of(const FailureQuestion& question, const FailureMap& map) {
   std::size_t beyond = 0;
   std::array<std::size_t, 3> judged{};  // by Judged
   for (std::size_t i = 0; i < all; ++i) {
+    question.look();
     Eigen::VectorXd values(static_cast<Eigen::Index>(factors.size()));
     std::size_t rest = i;
     for (std::size_t j = 0; j < factors.size(); ++j, rest /= nodes)

@@ -104,10 +104,11 @@ struct FailureMapResult {
 
 /// How a map is learnt.
 struct MapLearning {
-  FailureMapOptions runs{};  ///< which conditions are run
-  int rounds = 4;            ///< further runs for each clause (agreement)
-  int fresh = 0;             ///< conditions that are predicted, then run (check_fresh)
-  double tolerance = 0.10;   ///< share of the load beyond which the models count as different
+  FailureMapOptions runs{};            ///< which conditions are run
+  int rounds = 4;                      ///< further runs for each clause (agreement)
+  int fresh = 0;                       ///< conditions that are predicted, then run (check_fresh)
+  double tolerance = 0.10;             ///< share of the load beyond which the models count as different
+  std::function<void()> look = [] {};  ///< FailureQuestion::look
 };
 
 /// Throws what map_failures throws. Where `grains` waits for experiments, the result is not finished. What `grains`

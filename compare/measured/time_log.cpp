@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <chrono>
 #include <cmath>
 
 #include "scenario/csv.hpp"
@@ -28,6 +30,146 @@ struct LogHeader {
   std::string name{};
   std::optional<std::string> only{};  ///< the one text that rows may have
   bool parts = false;                 ///< named by --by
+};
+
+constexpr double day_of_seconds = 86400.0;
+
+/// Which number of 01/02/2026 is the month.
+enum class DateOrder { month_first, day_first };
+
+struct ReadClock {
+  double seconds = 0.0;
+  bool of_day = false;  ///< 12:30:05 without a date: begins again at midnight
+};
+
+std::vector<std::string> parted_at(const std::string& text, char mark) {
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(mark, at), text.size());
+    parts.push_back(text.substr(at, end - at)), at = end + 1;
+  }
+  return parts;
+}
+
+/// Its days from 1970 on: 2026-01-31, 31.01.2026, 01/31/2026, 31/01/2026.
+std::optional<double> days_of_date(const std::string& date, DateOrder order) {
+  const std::size_t mark = date.find_first_of("-./");
+  if (mark == date.npos) return std::nullopt;
+  std::vector<int> parts;
+  for (const std::string& part : parted_at(date, date[mark])) {
+    const std::optional<double> number = read_number(part);
+    if (!number || *number < 0.0 || *number > 9999.0) return std::nullopt;
+    parts.push_back(static_cast<int>(*number));
+  }
+  if (parts.size() != 3) return std::nullopt;
+  constexpr std::size_t digits_of_year = 4;
+  const bool year_first = mark == digits_of_year;
+  if (year_first) std::swap(parts[0], parts[2]);
+  if (!year_first && date[mark] == '/' && order == DateOrder::month_first) std::swap(parts[0], parts[1]);
+  constexpr int century = 2000;
+  const std::chrono::year_month_day day(std::chrono::year(parts[2] < 100 ? century + parts[2] : parts[2]),
+                                        std::chrono::month(static_cast<unsigned>(parts[1])),
+                                        std::chrono::day(static_cast<unsigned>(parts[0])));
+  if (!day.ok()) return std::nullopt;
+  return static_cast<double>(std::chrono::sys_days(day).time_since_epoch().count());
+}
+
+/// 12:30:05.25, and 12:30 where that can't be minutes and seconds.
+std::optional<double> seconds_of_day(const std::string& text, bool hours_lead) {
+  const std::vector<std::string> parts = parted_at(text, ':');
+  if (parts.size() < 2 || parts.size() > 3) return std::nullopt;
+  constexpr double sixty = 60.0;
+  double seconds = 0.0;
+  for (const std::string& part : parts) {
+    const std::optional<double> number = read_number(part);
+    if (!number || *number < 0.0) return std::nullopt;
+    seconds = sixty * seconds + *number;
+  }
+  return hours_lead && parts.size() == 2 ? sixty * seconds : seconds;
+}
+
+/// Whether a text ends so; then without that and the blanks before it.
+bool take_end(std::string& text, std::string_view end) {
+  if (!text.ends_with(end)) return false;
+  text.erase(text.size() - end.size());
+  text.erase(text.find_last_not_of(' ') + 1);
+  return true;
+}
+
+std::optional<ReadClock> read_clock(const std::string& cell, DateOrder order) {
+  if (const auto number = read_number(cell)) return ReadClock{*number};
+  std::string text = in_small_letters(cell);
+  const bool morning = take_end(text, "am"), afternoon = take_end(text, "pm"), halved = morning || afternoon;
+  double ahead = 0.0;  // of universal time
+  if (!take_end(text, "utc") && !take_end(text, "z"))
+    if (const std::size_t sign = text.find_first_of("+-", text.find(':')); sign != text.npos) {
+      std::string offset = text.substr(sign + 1);
+      constexpr std::size_t hours = 2;
+      if (offset.size() > hours && offset[hours] != ':') offset.insert(hours, ":");
+      const auto by = seconds_of_day(offset.size() == hours ? offset + ":00" : offset, true);
+      if (!by) return std::nullopt;
+      ahead = text[sign] == '-' ? -*by : *by;
+      take_end(text, text.substr(sign));
+    }
+  const std::size_t gap = text.find_last_of("t ");
+  const std::string time = gap == text.npos ? text : text.substr(gap + 1);
+  const auto days = gap == text.npos ? std::nullopt : days_of_date(text.substr(0, gap), order);
+  if (gap != text.npos && !days) return std::nullopt;
+  const auto of_day = seconds_of_day(time, days || halved);
+  if (!of_day) return std::nullopt;
+  constexpr double half_day = day_of_seconds / 2;
+  const double seconds = halved ? std::fmod(*of_day, half_day) + (afternoon ? half_day : 0.0) : *of_day;
+  if (days) return ReadClock{day_of_seconds * *days + seconds - ahead};
+  return ReadClock{seconds - ahead, halved || std::ranges::count(time, ':') == 2};
+}
+
+/// A log's clock, row by row, by both orders of a date's numbers.
+class LogClock {
+ public:
+  void take(const std::string& cell) {
+    std::array<double, 2> times{not_a_number, not_a_number};
+    for (const DateOrder order : {DateOrder::month_first, DateOrder::day_first})
+      if (const std::optional<ReadClock> read = read_clock(cell, order))
+        times[static_cast<std::size_t>(order)] = read->of_day ? after_midnights(read->seconds) : read->seconds;
+    if (!cell.empty() && std::isnan(times[0]) && std::isnan(times[1]) && unread_++ == 0) unread_cell_ = cell;
+    now_ = times;
+  }
+  /// Whether the row's time is that of the one that was kept last.
+  bool repeats() const { return !kept_[0].empty() && (now_[0] == kept_[0].back() || now_[1] == kept_[1].back()); }
+  void keep() {
+    for (std::size_t k = 0; k < kept_.size(); ++k) kept_[k].push_back(now_[k]);
+  }
+  /// Of 01/02/2026 and the like by the order that reads more of them, or makes the log shorter.
+  std::vector<double> clock() const {
+    const auto worth = [](const std::vector<double>& clock) {
+      double first = HUGE_VAL, last = -HUGE_VAL;
+      std::ptrdiff_t unread = 0;
+      for (const double time : clock)
+        if (std::isnan(time))
+          ++unread;
+        else
+          first = std::min(first, time), last = std::max(last, time);
+      return std::pair(unread, last - first);
+    };
+    std::vector<double> best = kept_[worth(kept_[1]) < worth(kept_[0]) ? 1 : 0];
+    if (std::ranges::all_of(best, [](double time) { return std::isnan(time); })) best.clear();
+    return best;
+  }
+  std::size_t unread() const { return unread_; }
+  const std::string& unread_cell() const { return unread_cell_; }
+
+ private:
+  /// A clock that goes back by more than half a day has passed midnight.
+  double after_midnights(double seconds) {
+    if (seconds + midnights_ < before_ - day_of_seconds / 2) midnights_ += day_of_seconds;
+    return before_ = seconds + midnights_;
+  }
+
+  std::array<double, 2> now_{not_a_number, not_a_number};
+  std::array<std::vector<double>, 2> kept_{};
+  double midnights_ = 0.0, before_ = 0.0;
+  std::size_t unread_ = 0;
+  std::string unread_cell_{};  ///< the first one
 };
 
 /// A text of each row as a number: equal texts get the same.
@@ -100,7 +242,6 @@ class LogReader {
     for (std::size_t i = 0; i < headers_.size(); ++i)
       if (headers_[i].only && row.cells[i].text != *headers_[i].only) return;
     std::vector<double> values;
-    double time = not_a_number;
     std::optional<std::size_t> run, setpoint, by;
     std::string label;
     for (std::size_t i = 0; i < headers_.size(); ++i) {
@@ -112,7 +253,7 @@ class LogReader {
           values.push_back(value_in(cell, headers_[i]));
           break;
         case Holds::clock:
-          time = clock_time(cell.text).value_or(not_a_number);
+          clock_.take(cell.text);
           break;
         case Holds::run:
           run = runs_.number_of(cell.text);
@@ -127,13 +268,13 @@ class LogReader {
           break;
       }
     }
-    if (repeats(values, time, run, setpoint, by)) {
+    if (repeats(values, run, setpoint, by)) {
       ++repeated_;
       return;
     }
     for (std::size_t c = 0; c < values.size(); ++c) log_.columns[c].values.push_back(values[c]);
     log_.line.push_back(row.line);
-    log_.clock.push_back(time);
+    clock_.keep();
     log_.setpoints.push_back(label);
     if (run) run_of_.push_back(*run);
     if (setpoint) setpoint_of_.push_back(*setpoint);
@@ -147,7 +288,12 @@ class LogReader {
       source_.refuse(first_, fmt::format("samples of {} wheels: {}", wheels_.names().size(), listed(wheels_.names())),
                      fmt::format("a campaign is of one wheel: --only '{}={}', and so for each",
                                  names_of(LogHeader::Holds::wheel), wheels_.names().front()));
-    if (std::ranges::all_of(log_.clock, [](double t) { return std::isnan(t); })) log_.clock.clear();
+    log_.clock = clock_.clock();
+    if (clock_.unread() > 0)
+      log_.notes.push_back(fmt::format(
+          "Times that can't be read: {}, the first '{}'; breaks of the clock there part no runs. Times are seconds, "
+          "12:30:05, or 2026-01-31T12:30:05.",
+          clock_.unread(), clipped(clock_.unread_cell())));
     if (setpoint_of_.empty()) log_.setpoints.clear();
     if (repeated_ > 0)
       log_.notes.push_back(fmt::format("Rows that repeat the one before them, dropped: {}.", repeated_));
@@ -199,9 +345,9 @@ class LogReader {
     return number_in(cell, header.name, header.choice.unit, source_) * header.per_unit;
   }
 
-  bool repeats(const std::vector<double>& values, double time, const std::optional<std::size_t>& run,
+  bool repeats(const std::vector<double>& values, const std::optional<std::size_t>& run,
                const std::optional<std::size_t>& setpoint, const std::optional<std::size_t>& by) const {
-    if (log_.line.empty() || std::isnan(time) || log_.clock.back() != time) return false;
+    if (!clock_.repeats()) return false;
     if ((run && run_of_.back() != *run) || (setpoint && setpoint_of_.back() != *setpoint) ||
         (by && part_by_.back() != *by))
       return false;
@@ -236,6 +382,7 @@ class LogReader {
   const SourceText& source_;
   const LogReading& how_;
   TimeLog log_;
+  LogClock clock_;
   std::vector<LogHeader> headers_;
   std::size_t first_ = 0, repeated_ = 0;
   NamedParts runs_, setpoints_, by_, wheels_;
@@ -250,23 +397,8 @@ double one_in_si(const std::string& unit) {
 }
 
 std::optional<double> clock_time(const std::string& text) {
-  if (const auto number = read_number(text)) return number;
-  const std::size_t day = text.find_first_of("T ");
-  std::string rest = day == text.npos ? text : text.substr(day + 1);
-  if (!rest.empty() && (rest.back() == 'Z' || rest.back() == 'z')) rest.pop_back();
-  constexpr double sixty = 60.0, day_of_seconds = 86400.0;
-  double seconds = 0.0;
-  std::size_t parts = 0;
-  for (std::size_t at = 0; at <= rest.size(); ++parts) {
-    const std::size_t colon = std::min(rest.find(':', at), rest.size());
-    const std::optional<double> part = read_number(rest.substr(at, colon - at));
-    if (!part || *part < 0.0) return std::nullopt;
-    seconds = sixty * seconds + *part, at = colon + 1;
-  }
-  if (parts < 2 || parts > 3) return std::nullopt;
-  if (day == text.npos || day < 2) return seconds;
-  const std::optional<double> of_month = read_number(text.substr(day - 2, 2));  // 2026-01-31
-  return of_month ? day_of_seconds * *of_month + seconds : seconds;
+  const std::optional<ReadClock> read = read_clock(text, DateOrder::month_first);
+  return read ? std::optional(read->seconds) : std::nullopt;
 }
 
 bool names_a_clock(const std::string& header) {

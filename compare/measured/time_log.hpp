@@ -25,7 +25,8 @@ namespace soilbin::compare {
 inline constexpr std::size_t largest_log = 1U << 28U;  ///< [bytes]
 inline constexpr std::size_t most_log_rows = 1'000'000;
 
-/// A time of a logger in seconds: a number, "12:30:05.25", "2026-01-31T12:30:05"; no value for anything else.
+/// A time of a logger in seconds: a number; "12:30:05.25" or "12:30:05 PM", from midnight; "2026-01-31T12:30:05" or
+/// "01/31/2026 12:30", with "Z" or "+01:00" behind it or without, from 1970; no value for anything else.
 std::optional<double> clock_time(const std::string& text);
 
 /// One of a unit in SI: "kN" is 1000.

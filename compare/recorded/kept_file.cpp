@@ -52,7 +52,7 @@ KeptFile::State KeptFile::state() const {
 
 void KeptFile::look() {
   if (file_.empty() || !fs::exists(file_)) return;
-  if (State now = state(); now != known_) read_(), known_ = std::move(now);
+  if (State now = state(); now != known_) read_(), known_ = std::move(now), others_wrote_ = true;
 }
 
 void KeptFile::add(const std::function<void()>& add, std::string line) {
@@ -63,13 +63,16 @@ void KeptFile::add(const std::function<void()>& add, std::string line) {
   if (writers_ == Writers::several) lock.emplace(folder, FileLock::Wait::until_free);
   look();
   add();
-  if (lock && !line.empty() && size_of(journal_of(file_)) + line.size() < size_of(file_)) {
+  if ((lock || !others_wrote_) && !line.empty() && size_of(journal_of(file_)) + line.size() < size_of(file_)) {
     std::ranges::replace(line, '\n', ' ');
     append_line(journal_of(file_), line);
   } else {
-    write_file_atomically(file_, text_());
+    const std::string text = text_();
+    need_readable_size(file_, text);
+    write_file_atomically(file_, text);
     std::error_code ignored;
     fs::remove(journal_of(file_), ignored);
+    others_wrote_ = false;
   }
   known_ = state();
 }

@@ -24,7 +24,8 @@ std::vector<SourceText> kept_documents(const std::filesystem::path& file);
 class KeptFile {
  public:
   /// `read` adds what the file and its journal hold to what its owner knows; `text` is the file's text of all that is
-  /// known. An empty name keeps nothing. One writer has no lock, and writes the whole file each time.
+  /// known. An empty name keeps nothing. One writer takes no lock; where it meets another's writing all the same, it
+  /// writes the whole file.
   KeptFile(std::filesystem::path file, Writers writers, std::function<void()> read, std::function<std::string()> text);
   KeptFile(const KeptFile&) = delete;
   KeptFile& operator=(const KeptFile&) = delete;
@@ -34,7 +35,8 @@ class KeptFile {
   /// Reads, where others have written since.
   void look();
   /// Reads what others have written, calls `add`, which changes what is known, and keeps that: `line` is the change as
-  /// a document, or empty for one that needs the whole file written. Makes missing folders. Throws CannotWrite.
+  /// a document, or empty for one that needs the whole file written. Makes missing folders. Throws CannotWrite, also
+  /// for a file that would be longer than what is read again (largest_json).
   void add(const std::function<void()>& add, std::string line);
 
  private:
@@ -45,7 +47,8 @@ class KeptFile {
   Writers writers_;
   std::function<void()> read_;
   std::function<std::string()> text_;
-  State known_{};  ///< as they were read or written here last
+  State known_{};              ///< as they were read or written here last
+  bool others_wrote_ = false;  ///< since the whole file was written here
 };
 
 }  // namespace soilbin::compare

@@ -9,6 +9,7 @@
 #include "compare/report/javascript.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/plot.hpp"
+#include "scenario/quantity.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -97,8 +98,9 @@ Json one_map(const HeatMap& map) {
   for (const auto& row : map.cells)
     for (const HeatCell& cell : row)
       json["cells"].push_back({cell.text, cell.meaning, heat_class(cell),
-                               std::stod(fmt::format("{:.2f}", heat_opacity(cell, map.limit))), cell.counts ? 1 : 0,
-                               std::stod(fmt::format("{:.6g}", cell.value))});
+                               read_number(fmt::format("{:.2f}", heat_opacity(cell, map.limit))).value(),
+                               cell.counts ? 1 : 0,
+                               read_number(fmt::format("{:.6g}", cell.value)).value_or(cell.value)});
   return json;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "compare/report/json_fields.hpp"
+#include "scenario/atomic_file.hpp"
 #include "scenario/checksum.hpp"
 
 namespace soilbin::compare {
@@ -63,6 +64,14 @@ std::string without_seal(const Json& object) {
 }
 
 }  // namespace
+
+void need_readable_size(const std::filesystem::path& file, std::string_view text) {
+  if (text.size() <= largest_json) return;
+  throw CannotWrite(fmt::format(
+      "{}: would be {:.0f} MiB, and no more than {} MiB are read again\n  hint: keep further runs in a record "
+      "of their own, and name this one with --known",
+      file.string(), static_cast<double>(text.size()) / (1U << 20U), largest_json >> 20U));
+}
 
 Json parse_json(const SourceText& source, const std::string& hint) {
   if (const std::size_t at = too_deep(source.text); at != std::string::npos)

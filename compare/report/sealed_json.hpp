@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
@@ -12,6 +14,10 @@ namespace soilbin::compare {
 
 /// Largest record, store or other file kept in JSON [bytes].
 inline constexpr std::size_t largest_json = 256U << 20U;
+
+/// Throws CannotWrite for a text of the file that would be longer than that: it could not be read again.
+void need_readable_size(const std::filesystem::path& file, std::string_view text);
+
 /// Levels of lists and objects; ours have fewer than ten.
 inline constexpr int deepest_json = 32;
 

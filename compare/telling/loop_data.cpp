@@ -12,6 +12,7 @@
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/telling/loop_report.hpp"
+#include "scenario/quantity.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -88,7 +89,7 @@ Json condition_json(const LoopAnswer& answer) {
     const ConditionView& view = condition_view(name);
     const double value = rig_setting_of(answer, answer.next()->at, name) * per_unit(std::string(view.column_unit));
     if (std::isfinite(value))
-      at[view.column] = view.whole ? Json(std::lround(value)) : Json(std::stod(fmt::format("{:.6g}", value)));
+      at[view.column] = view.whole ? Json(std::lround(value)) : Json(read_number(fmt::format("{:.6g}", value)).value());
   }
   return at;
 }

@@ -25,6 +25,16 @@ std::string vehicle_end_in_words(DriveEnd end) {
   return end == DriveEnd::tips_over ? "it tips over" : fmt::format("it is {}", word_of(end));
 }
 
+/// "dry-sand"; "snow, then dry-sand" where it meets another on its way.
+std::string soils_driven_on(const VehicleCase& question) {
+  const std::vector<Waypoint>& way = question.drive.profile;
+  std::vector<std::string> names;
+  if (way.empty() || !way.front().soil || way.front().at > 0.0) names.push_back(question.soil.name);
+  for (const Waypoint& point : way)
+    if (point.soil && (names.empty() || names.back() != point.soil->name)) names.push_back(point.soil->name);
+  return fmt::format("{}", fmt::join(names, ", then "));
+}
+
 std::string number_or_error(double value, const std::optional<double>& std_error) {
   return std_error && *std_error > 0.0 ? number(Estimate{value, *std_error}) : number(value);
 }
@@ -126,7 +136,7 @@ Table driven_happenings_table(const DrivenAnswers& answers) {
 Sheet driven_sheet(const DrivenAnswers& answers) {
   const std::vector<VehicleDriveSample>& samples = answers.record->samples;
   const Axis time{"time [s]"};
-  Sheet sheet{answers.question.name + " on " + answers.question.soil.name};
+  Sheet sheet{answers.question.name + " on " + soils_driven_on(answers.question)};
   const auto axles_named = static_cast<int>(answers.question.axles.size());
   const auto curve = [&](const std::string& label, int color,
                          const std::function<double(const VehicleDriveSample&)>& get) {
@@ -264,8 +274,9 @@ std::string driven_csv(const DrivenAnswers& answers) {
 
 Report report_on(const DrivenAnswers& answers) {
   const VehicleCase& question = answers.question;
-  Report report{"Vehicle in time: " + question.name, "Does it start, does it climb, and where does it get stuck?",
-                fmt::format("{} ({:.6g} kg) on {}, from rest", question.name, question.mass, question.soil.name)};
+  Report report{
+      "Vehicle in time: " + question.name, "Does it start, does it climb, and where does it get stuck?",
+      fmt::format("{} ({:.6g} kg) on {}, from rest", question.name, question.mass, soils_driven_on(question))};
   if (answers.record) report.add(driven_samples_table(*answers.record), Told::on_terminals);
   report.add(Sentences(driven_verdicts(answers)));
   report.add(WarningsHere());

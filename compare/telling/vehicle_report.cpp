@@ -122,7 +122,7 @@ std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
                                 number(v.power.into_wheels / v.at.speed / unit, 3), prefix)});
     if (answers.power_speed && answers.holds_speed() && answers.fastest && answers.fastest->limit == TravelLimit::power)
       said.push_back({"Power", fmt::format("All of it is used at {} m/s.", number(*answers.power_speed, 3))});
-    if (v.crab != 0.0)
+    if (constexpr double rounding = 1e-9; std::abs(v.crab) > rounding)
       said.push_back({"Across", fmt::format("It points {}{}.", turned_in_words(v.crab, v.at, " of its travel"),
                                             v.steering != 0.0 ? ", with its steered wheels turned by " +
                                                                     turned_in_words(v.steering, v.at, "")

@@ -252,17 +252,19 @@ Json turns_json(const TurnAnswers& answers) {
 
 std::string turn_csv(const TurnAnswers& answers) {
   std::string text =
-      "wheel,radius_m,normal_load_N,steer_deg,slip,yaw_deg,force_forward_N,force_left_N,torque_Nm,sinkage_m\n";
+      "wheel,radius_m,normal_load_N,steer_deg,slip,yaw_deg,force_forward_N,force_left_N,torque_Nm,sinkage_m,"
+      "off_the_ground\n";
   if (!answers.turn) return text;
   for (std::size_t i = 0; i < answers.wheels.size(); ++i) {
     const SteadyWheel& wheel = answers.turn->vehicle.wheels[i];
     const TractionResult& r = wheel.result;
     const GroundForce force = in_wheel_plane(wheel);
+    const auto answered = [&](double value) { return csv_number(wheel.lifted ? not_a_number : value); };
     text +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_cell(answers.wheels[i].name),
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(answers.wheels[i].name),
                     csv_number(answers.turn->radius), csv_number(wheel.normal_load), csv_number(wheel.steer / degree),
-                    csv_number(r.at.slip), csv_number(r.at.yaw / degree), csv_number(force.forward),
-                    csv_number(force.left), csv_number(r.torque.value), csv_number(r.sinkage.value));
+                    answered(r.at.slip), answered(r.at.yaw / degree), answered(force.forward), answered(force.left),
+                    answered(r.torque.value), answered(r.sinkage.value), wheel.lifted ? 1 : 0);
   }
   return text;
 }

@@ -26,6 +26,8 @@ double turn_of(double unknown) {
   return most * std::tanh(unknown / most);
 }
 
+constexpr double in_one_place = 1e-9;  // [m] what lies closer differs by rounding
+
 constexpr double nearly_all = 0.999;  // of its speed, that a side of a differential loses
 
 }  // namespace
@@ -110,7 +112,8 @@ SteadyVehicles::Turning SteadyVehicles::turn(const VehicleCondition& at, const M
     double rim = 1.0;
     if (curvature != 0.0 && m.lever == 0.0) {
       constexpr double slowest = 1e-3;
-      const double side = wheel.place.y > m.y0 ? 1.0 : wheel.place.y < m.y0 ? -1.0 : 0.0;
+      const double beside = wheel.place.y - m.y0;
+      const double side = std::abs(beside) > in_one_place ? std::copysign(1.0, beside) : 0.0;
       rim = std::max(1.0 - side * unlike, slowest);
     } else if (curvature != 0.0 && vehicle_.drive_line == DriveLine::motors) {
       rim = std::hypot(forward, left);
@@ -136,9 +139,9 @@ SteadyVehicles::Modes SteadyVehicles::modes(const VehicleCondition& at) const {
     m.length = std::max(m.length, std::abs(wheel.place.x - m.x0));
     m.width = std::max(m.width, std::abs(wheel.place.y - m.y0));
   }
-  constexpr double in_one_place = 1e-9;
   m.pitches = m.length > in_one_place, m.rolls = m.width > in_one_place;
-  const bool lopsided = vehicle_.centre_of_gravity.y != m.y0 || vehicle_.hitch.at.y != 0.0;
+  const bool lopsided = std::abs(vehicle_.centre_of_gravity.y - m.y0) > in_one_place ||
+                        std::abs(vehicle_.hitch.at.y - m.y0) > in_one_place;
   m.crabs = m.pitches && (at.cross_slope != 0.0 || (m.rolls && lopsided));
   m.steers = m.crabs && std::ranges::any_of(vehicle_.axles, is_steered);
   if (at.curvature == 0.0 && !at.on_the_spot) return m;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "bekker_wong/presumption.hpp"
 #include "scenario/effect_choices.hpp"
@@ -206,7 +207,6 @@ std::vector<VehicleWheel> wheels_of(const VehicleCase& vehicle) {
 
 Doubts declare_tires(std::vector<VehicleWheel>& wheels, const TireLeftOut& left_out) {
   Doubts told;
-  std::vector<std::string> names;
   for (VehicleWheel& wheel : wheels) {
     Case question;
     question.scenario = wheel.scenario;
@@ -217,16 +217,15 @@ Doubts declare_tires(std::vector<VehicleWheel>& wheels, const TireLeftOut& left_
     Doubts doubts = as_declared(question, left_out);
     wheel.scenario.tire = question.scenario.tire;
     wheel.scenario.effects = question.study.models.front().effects;
-    if (std::ranges::find(names, wheel.scenario.tire.name) != names.end()) continue;
-    names.push_back(wheel.scenario.tire.name);
-    std::ranges::move(doubts, std::back_inserter(told));
+    for (Doubt& doubt : doubts)
+      if (std::ranges::find(told, doubt) == told.end()) told.push_back(std::move(doubt));
   }
   return told;
 }
 
-std::vector<DoubtfulNumber> doubtful_numbers(const std::vector<VehicleWheel>& wheels) {
+std::vector<DoubtfulNumber> doubtful_numbers(const Soil& of) {
   std::vector<DoubtfulNumber> all;
-  const SemiEmpiricalSoil& soil = *wheels.front().scenario.soil.semi_empirical;
+  const SemiEmpiricalSoil& soil = *of.semi_empirical;
   for (const SoilParameter& p : soil_parameters)
     if (const Estimate& value = soil.*p.value; value.std_error > 0.0)
       all.push_back({value.value, value.std_error, p.range,
@@ -234,18 +233,49 @@ std::vector<DoubtfulNumber> doubtful_numbers(const std::vector<VehicleWheel>& wh
                        move_value(*scenario.soil.semi_empirical, p, x, n);
                      },
                      p.title});
-  std::vector<std::string> tires;
+  return all;
+}
+
+namespace {
+
+/// What a tire's carcass is known by, whatever its inflation.
+auto carcass_of(const Tire& tire) {
+  const Estimate pressure = tire.carcass_pressure.value_or(Estimate{});
+  return std::tuple(tire.name, tire.radius, tire.width, pressure.value, pressure.std_error);
+}
+
+/// "carcass pressure of 11.00 R20"; by its wheel where other tires have the same name, or it has none.
+std::string carcass_title(const VehicleWheel& wheel, const std::vector<VehicleWheel>& wheels) {
+  const Tire& tire = wheel.scenario.tire;
+  const bool named = !tire.name.empty() && std::ranges::all_of(wheels, [&](const VehicleWheel& other) {
+    return other.scenario.tire.name != tire.name || carcass_of(other.scenario.tire) == carcass_of(tire);
+  });
+  return "carcass pressure of " + (named ? tire.name : "the tire " + wheel.name);
+}
+
+}  // namespace
+
+std::vector<DoubtfulNumber> doubtful_carcasses(const std::vector<VehicleWheel>& wheels) {
+  std::vector<DoubtfulNumber> all;
+  std::vector<decltype(carcass_of({}))> told;
   for (const VehicleWheel& wheel : wheels) {
     const Tire& tire = wheel.scenario.tire;
-    if (std::ranges::find(tires, tire.name) != tires.end()) continue;
-    tires.push_back(tire.name);
+    const auto carcass = carcass_of(tire);
+    if (std::ranges::find(told, carcass) != told.end()) continue;
+    told.push_back(carcass);
     if (bekker_wong::errs_by_carcass(tire, wheel.scenario.effects))
       all.push_back({tire.carcass_pressure->value, tire.carcass_pressure->std_error, zero_or_more,
-                     [name = tire.name](Scenario& scenario, double x) {
-                       if (scenario.tire.name == name) scenario.tire.carcass_pressure->value = x;
+                     [carcass](Scenario& scenario, double x) {
+                       if (carcass_of(scenario.tire) == carcass) scenario.tire.carcass_pressure->value = x;
                      },
-                     "carcass pressure of " + tire.name});
+                     carcass_title(wheel, wheels)});
   }
+  return all;
+}
+
+std::vector<DoubtfulNumber> doubtful_numbers(const std::vector<VehicleWheel>& wheels) {
+  std::vector<DoubtfulNumber> all = doubtful_numbers(wheels.front().scenario.soil);
+  std::ranges::move(doubtful_carcasses(wheels), std::back_inserter(all));
   return all;
 }
 

@@ -271,7 +271,11 @@ struct DoubtfulNumber {
   }
 };
 
-/// Each once: the soil is one for all wheels, a carcass pressure one for all wheels with that tire.
+/// The soil's values, which are one for all wheels, and doubtful_carcasses.
 std::vector<DoubtfulNumber> doubtful_numbers(const std::vector<VehicleWheel>& wheels);
+/// Those of a soil that has semi_empirical values.
+std::vector<DoubtfulNumber> doubtful_numbers(const Soil& soil);
+/// A carcass pressure once for all wheels whose tires have name, size and carcass in common; inflations may differ.
+std::vector<DoubtfulNumber> doubtful_carcasses(const std::vector<VehicleWheel>& wheels);
 
 }  // namespace soilbin::compare

@@ -11,6 +11,7 @@
 #include "compare/vehicle/vehicle.hpp"
 #include "compare/vehicle/vehicle_errors.hpp"
 #include "compare/vehicle/vehicle_speed.hpp"
+#include "scenario/drive_soils.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
@@ -371,11 +372,43 @@ VehicleAnswers answers_of(const VehicleCase& question, const std::vector<Vehicle
 
 namespace {
 
-MovedVehicleDrive::Side moved_drive(const VehicleCase& question, const std::vector<VehicleWheel>& wheels,
-                                    const DoubtfulNumber& number, double value) {
+/// A number that is moved for the errors of a drive, and the soil that it is of where it is one of a soil.
+struct DriveNumber {
+  DoubtfulNumber number;
+  std::optional<Soil> of{};
+};
+
+/// Those of the wheels, then those of the soils that begin on the way and are others than the ones before.
+std::vector<DriveNumber> drive_numbers(VehicleCase question, const std::vector<VehicleWheel>& wheels) {
+  std::vector<DriveNumber> all;
+  const std::vector<Soil*> soils = soils_of_way(question.soil, question.drive.profile);
+  for (std::size_t k = 0; k < soils.size(); ++k) {
+    const bool returns = std::any_of(soils.begin(), soils.begin() + static_cast<std::ptrdiff_t>(k),
+                                     [&](const Soil* before) { return is_same_soil(*before, *soils[k]); });
+    if (!soils[k]->semi_empirical || returns) continue;
+    for (DoubtfulNumber& number : doubtful_numbers(*soils[k])) {
+      if (k > 0) number.title += " of " + soils[k]->name;
+      all.push_back({std::move(number), *soils[k]});
+    }
+    if (k == 0)
+      for (DoubtfulNumber& number : doubtful_carcasses(wheels)) all.push_back({std::move(number)});
+  }
+  return all;
+}
+
+MovedVehicleDrive::Side moved_drive(VehicleCase question, std::vector<VehicleWheel> wheels, const DriveNumber& moved,
+                                    double value) {
   MovedVehicleDrive::Side side{value};
+  if (!moved.of || is_same_soil(question.soil, *moved.of)) wheels = moved.number.in(std::move(wheels), value);
+  for (Waypoint& point : question.drive.profile)
+    if (moved.of && point.soil && is_same_soil(*point.soil, *moved.of)) {
+      Scenario there;
+      there.soil = *point.soil;
+      moved.number.set(there, value);
+      point.soil = there.soil;
+    }
   try {
-    const VehicleDriveRecord record = drive_vehicle(question, number.in(wheels, value), 1);
+    const VehicleDriveRecord record = drive_vehicle(question, wheels, 1);
     side.end = record.end, side.end_time = record.end_time, side.travelled = record.samples.back().travelled;
   } catch (const NoSolution&) {  // it does not stand
   }
@@ -406,11 +439,12 @@ DrivenAnswers driven_answers(const VehicleCase& question, const std::vector<Vehi
     answers.failure = {error.why(), error.wheel(), error.what()};
     return answers;
   }
-  for (const DoubtfulNumber& number : doubtful_numbers(wheels)) {
+  for (const DriveNumber& one : drive_numbers(question, wheels)) {
+    const DoubtfulNumber& number = one.number;
     MovedVehicleDrive moved{number.title, number.value, number.sd};
     const Neighbours beside = neighbours(number.value, number.sd, number.range);
-    moved.lower = moved_drive(question, wheels, number, beside.below);
-    moved.higher = moved_drive(question, wheels, number, beside.above);
+    moved.lower = moved_drive(question, wheels, one, beside.below);
+    moved.higher = moved_drive(question, wheels, one, beside.above);
     answers.moved.push_back(moved);
     if (progress) progress(answers.record->end_time, question.drive.duration);
   }

@@ -180,7 +180,7 @@ struct DrivenAnswers {
 };
 
 /// The drive, and again for its errors: each doubtful value a standard deviation lower and higher, all taken as
-/// independent; soils that begin on the way keep their values. Throws what drive_vehicle throws, but for a vehicle that
+/// independent, those of the soils that begin on the way too. Throws what drive_vehicle throws, but for a vehicle that
 /// does not stand.
 DrivenAnswers driven_answers(const VehicleCase& question, const std::vector<VehicleWheel>& wheels, const Model& model,
                              int samples = 400, const bekker_wong::DriveProgress& progress = {});

@@ -99,11 +99,11 @@ void require_both_sides_alike(const VehicleCase& question, const std::vector<Veh
   const char* alike = "a vehicle driven in time is alike on both sides: ";
   if (question.condition.cross_slope != 0.0)
     throw InputError("a vehicle is driven in time straight up or down: it takes no cross slope");
-  if (question.hitch.at.y != question.centre_of_gravity.y)
+  const auto beside = [&](double y) { return std::abs(y - question.centre_of_gravity.y) > 1e-9; };
+  if (beside(question.hitch.at.y))
     throw InputError(alike + std::string("its hitch does not lie behind its centre of gravity"));
   for (const VehicleAxle& axle : question.axles)
-    if (axle.y != question.centre_of_gravity.y)
-      throw InputError(alike + ("axle '" + axle.name + "' does not lie below its centre of gravity"));
+    if (beside(axle.y)) throw InputError(alike + ("axle '" + axle.name + "' does not lie below its centre of gravity"));
   for (const VehicleWheel& wheel : wheels)
     for (const VehicleWheel& other : wheels)
       if (wheel.axle == other.axle && wheel.pass() != other.pass())

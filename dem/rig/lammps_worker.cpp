@@ -25,6 +25,7 @@
 #include "scenario/estimate.hpp"
 #include "scenario/file_bytes.hpp"
 #include "scenario/file_lock.hpp"
+#include "scenario/quantity.hpp"
 
 namespace soilbin::dem {
 
@@ -143,7 +144,7 @@ std::optional<Progress> progress_in(const std::string& line, std::string& stage)
   if (all.size() < 4 || all[0] != "progress") return std::nullopt;
   stage.clear();
   for (std::size_t k = 1; k + 2 < all.size(); ++k) stage += (k > 1 ? " " : "") + all[k];
-  return Progress{stage, std::strtod(all[all.size() - 2].c_str(), nullptr), std::strtod(all.back().c_str(), nullptr)};
+  return Progress{stage, read_number(all[all.size() - 2]).value_or(0.0), read_number(all.back()).value_or(0.0)};
 }
 
 /// Hands on what the worker says until it ends; gives its exit status. Whatever `how` throws stops the worker first.

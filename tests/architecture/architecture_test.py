@@ -165,6 +165,13 @@ class TheRules(unittest.TestCase):
         self.assertEqual(found(said.replace("return", "throw InputError(").replace(";", ");")), [])
         self.assertEqual(found('return fmt::format("{} of {}", done, all);  // The share of all that is done.'), [])
 
+    def test_a_number_that_is_read_by_the_locale(self):
+        reads = "double x = std::stod(text);  // 18.4\n"
+        self.assertEqual(self.breaches("locale", scenario__a_dot_cpp=reads),
+                         ["scenario/a.cpp:1: stod(...) reads by the locale: read_number of scenario/quantity.hpp"])
+        self.assertEqual(self.breaches("locale", tests__a_dot_cpp=reads), [])
+        self.assertEqual(self.breaches("locale", cli__a_dot_cpp="int n = std::stoi(text);  // not strtod(text)\n"), [])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -237,6 +237,19 @@ def effect_breaches(root, files):
                     yield f"{name}:{number}: effect {stem} names effect {other}"
 
 
+LOCALE = re.compile(r"\b(?:sto[df]|stold|strto[df]|strtold|atof)\s*\(")
+
+
+def locale_breaches(root, files):
+    """Numbers are read by read_number: in a Python with a locale of decimal commas the C library reads 18.4 as 18."""
+    for name in files:
+        if name.suffix not in CPP or name.parts[0] in ("tests", "bench"):
+            continue
+        for number, line in enumerate((root / name).read_text(encoding="utf-8").splitlines(), 1):
+            if found := LOCALE.search(line.split("//")[0]):
+                yield f"{name}:{number}: {found[0]}...) reads by the locale: read_number of scenario/quantity.hpp"
+
+
 STRING = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 SENTENCE_WORDS = 5
 # Where sentences may be formatted beside telling/.
@@ -282,4 +295,5 @@ RULES = {
     "machine paths": machine_path_breaches,
     "effects": effect_breaches,
     "sentences": sentence_breaches,
+    "locale": locale_breaches,
 }

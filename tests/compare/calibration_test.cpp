@@ -193,6 +193,26 @@ TEST(Calibration, StoppedAndResumedIsTheSameAndDoesNoWorkTwice) {
   EXPECT_TRUE(resumed.runs[10].experiment.from_store);
 }
 
+// As where it is answered from what others made, and they did not make all of it.
+TEST(Calibration, OfAStoreAloneItEndsWhereTheStoreDoes) {
+  ExperimentStore store;
+  struct Stopped {};
+  CalibrationOptions options{.cloud = few_points};
+  options.watch = [](const dem::Progress& progress) {
+    if (std::lround(30 * progress.done) == 11) throw Stopped();
+  };
+  EXPECT_THROW(calibrate(board(), options, store), Stopped);
+  int told = 0;
+  options.watch = [&](const dem::Progress&) {
+    if (++told > 100) throw Stopped();
+  };
+  VirtualTest asks_nobody = board();
+  asks_nobody.run = {};
+  const Calibration found = calibrate(asks_nobody, options, store);
+  EXPECT_EQ(found.runs.size(), 11U);
+  EXPECT_FALSE(found.reached);
+}
+
 TEST(Calibration, AnotherTestDoesNotTakeFromTheStore) {
   const Folder folder;
   int calls = 0;

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -191,6 +192,57 @@ TEST(ExperimentStores, WithoutSealsTheyAreReadAndCounted) {
   EXPECT_EQ(store.find(board_test(), {at(0.3), 7})->results[0].value, 8.77);
   store.add(board_test(), made_experiment(0.4));
   EXPECT_EQ(ExperimentStore(folder / "old.json").unsealed(), 1U) << "writing it again vouches for nothing";
+}
+
+/// A store's file with one experiment that no seal vouches for.
+std::string unsealed_store(double friction, double angle) {
+  return fmt::format(R"({{"format": "soilbin-experiments/1", "tests": [{{"test":
+    "stand-in board, step 1e-5\nfactors sliding_friction\ntargets board_angle",
+    "experiments": [{{"values": [{}], "seed": 7, "results": [[{}, 0.3]], "seconds": 1.5}}]}}]}})",
+                     friction, angle);
+}
+
+TEST(ExperimentStores, AMergeOrAJournalVouchesForNothingThatHadNoSeal) {
+  const Folder folder;
+  std::ofstream(folder / "old.json") << unsealed_store(0.3, made_experiment(0.3).results[0].value)
+                                     << std::string(4000, '\n');
+  ExperimentStore merged(folder / "merged.json");
+  merged.merge(folder / "old.json");
+  EXPECT_EQ(ExperimentStore(folder / "merged.json").unsealed(), 1U);
+
+  std::string line = unsealed_store(0.4, 8.87);
+  std::ranges::replace(line, '\n', ' ');
+  std::ofstream(folder / "old.json.journal") << line << '\n';
+  { ExperimentStore writes_again(folder / "old.json"); }
+  EXPECT_FALSE(fs::exists(folder / "old.json.journal"));
+  EXPECT_EQ(ExperimentStore(folder / "old.json").unsealed(), 2U);
+
+  ExperimentStore made(folder / "made.json");
+  made.add(board_test(), made_experiment(0.3));
+  merged.merge(folder / "made.json");
+  EXPECT_EQ(ExperimentStore(folder / "merged.json").unsealed(), 0U) << "the one that was made anew confirms it";
+}
+
+TEST(ExperimentStores, ARefusedMergeTakesNothing) {
+  const Folder folder;
+  std::ofstream(folder / "mine.json") << unsealed_store(0.3, 8.77);
+  std::ofstream(folder / "theirs.json") << unsealed_store(0.3, 99.0);
+  {
+    ExperimentStore large(folder / "mine.json");
+    for (int k = 0; k < 8; ++k) large.add(board_test(), made_experiment(0.4 + 0.1 * k));
+  }
+  {
+    ExperimentStore mine(folder / "mine.json");
+    mine.add(board_test(), made_experiment(1.5));
+    ASSERT_TRUE(fs::exists(folder / "mine.json.journal")) << "what is known is written once more at the end";
+    EXPECT_THAT(soilbin::test::refusal([&] { mine.merge(folder / "theirs.json"); }), HasSubstr("another answer"));
+    EXPECT_EQ(mine.find(board_test(), {at(0.3), 7})->results[0].value, 8.77);
+  }
+  const ExperimentStore mine(folder / "mine.json");
+  EXPECT_EQ(mine.find(board_test(), {at(0.3), 7})->results[0].value, 8.77);
+  EXPECT_EQ(mine.size(), 10U);
+  EXPECT_EQ(mine.unsealed(), 1U);
+  EXPECT_EQ(read_bytes(folder / "mine.json", 1 << 20).find("99.0"), std::string::npos);
 }
 
 TEST(ExperimentStores, TellTheFlagsOfTheCommandsThatMadeThem) {

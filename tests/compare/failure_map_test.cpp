@@ -33,6 +33,41 @@ FailureQuestion map_question() {
 
 const std::vector<Role> without_lugs{Role::limited, Role::held, Role::limited, Role::whole};
 
+struct AskedToStop : std::runtime_error {
+  AskedToStop() : std::runtime_error("asked to stop") {}
+};
+
+/// A map's question that is stopped at the `count`-th look.
+FailureQuestion stopped_at(int count, int& looks) {
+  FailureQuestion q = map_question();
+  q.look = [count, &looks] {
+    if (++looks == count) throw AskedToStop();
+  };
+  return q;
+}
+
+TEST(FailureMap, StopsWhereverItIsAskedTo) {
+  const FailureMapOptions few{.first = 12, .at_boundary = 1, .cloud = 50};
+  int all = 0;
+  const FailureQuestion q = stopped_at(-1, all);
+  FailureMap map = map_failures(q, few);
+  const int to_map = all;
+  agreement(q, map, without_lugs, 5, 1);
+  ASSERT_GT(to_map, 100) << "many a process";
+  for (const int count : {1, to_map / 2, to_map, to_map + 1, all}) {
+    int looks = 0;
+    const FailureQuestion stopped = stopped_at(count, looks);
+    EXPECT_THROW(
+        {
+          FailureMap other = map_failures(stopped, few);
+          agreement(stopped, other, without_lugs, 5, 1);
+        },
+        AskedToStop)
+        << count;
+    EXPECT_EQ(looks, count) << "no look after it";
+  }
+}
+
 TEST(SlowFailureMap, FindsTheBoundaryOfAFormula) {
   const FailureQuestion q = map_question();
   const FailureMap map = map_failures(q);

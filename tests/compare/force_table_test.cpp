@@ -190,6 +190,23 @@ TEST(ForceTable, GivesNamesThatCTakes) {
   EXPECT_EQ(c_name_of(".h"), "table_");
 }
 
+// The words that stand for them in the code of every table are no words in them.
+TEST(ForceTable, TheHeaderOfAnyNameIsThatOfAnotherWithTheNameInItsPlace) {
+  const ForceTable table =
+      force_table(grid_question(), {}, made_by([](const OperatingCondition& at) { return at.load; }));
+  const auto renamed = [](std::string text, const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != text.npos; at += to.size())
+      text.replace(at, from.size(), to);
+    return text;
+  };
+  const std::string plain = c_header_of(table, {"qqq", "1"});
+  for (const auto& [name, capitals] : {std::pair("rename_forces", "RENAME_FORCES"),
+                                       {"tire_name_table", "TIRE_NAME_TABLE"},
+                                       {"PLACE", "PLACE"},
+                                       {"NAME_SIZE_H", "NAME_SIZE_H"}})
+    EXPECT_EQ(c_header_of(table, {name, "1"}), renamed(renamed(plain, "qqq", name), "QQQ", capitals));
+}
+
 TEST(ForceTable, NoNameEndsTheCommentOfItsHeader) {
   Case question = grid_question();
   question.scenario.soil.name = "sand */ int main";

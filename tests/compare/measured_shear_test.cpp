@@ -92,6 +92,39 @@ TEST(MeasuredShear, CutsACohesionBelowZeroOff) {
   EXPECT_LT(fit.friction_angle.value, made_phi);
 }
 
+/// rows_of_a_test as a load cell logs it: the normal stress of each reading is a little other, by `share` of it at
+/// most.
+std::string logged_rows(const std::string& name, double normal_stress, double share) {
+  std::string rows;
+  for (int k = 1; k <= 60; ++k) {
+    const double j = 1e-3 * k, top = normal_stress * std::tan(made_phi);
+    rows += fmt::format("{},{:.9g},{:.9g},{:.9g}\n", name, 1e3 * j, -top * std::expm1(-j / made_modulus) / 1e3,
+                        normal_stress * (1 + share * std::sin(7.0 * k)) / 1e3);
+  }
+  return rows;
+}
+
+TEST(MeasuredShear, ALoggedNormalStressIsItsTestsMean) {
+  const auto tests = read(logged_rows("a", 20e3, 0.01) + logged_rows("b", 40e3, 0.01));
+  ASSERT_EQ(tests.size(), 2U);
+  EXPECT_EQ(tests[0].curve.displacement.size(), 60U);
+  EXPECT_NEAR(tests[1].curve.normal_stress, 40e3, 0.001 * 40e3);
+  EXPECT_NEAR(tests[1].normal_stress_spread, 0.01 * 40e3 / std::sqrt(2.0), 0.05 * 400) << "of a sine";
+  EXPECT_NEAR(fit_measured_shear(tests).friction_angle.value, made_phi, 0.002);
+  EXPECT_THAT(doubts(fit_measured_shear(tests), tests),
+              testing::Not(testing::Contains(test::tells(DoubtKind::varying_normal_stress, {}))));
+  const auto loose = read(logged_rows("a", 20e3, 0.1) + logged_rows("b", 40e3, 0.01));
+  EXPECT_THAT(doubts(fit_measured_shear(loose), loose),
+              testing::Contains(test::tells(DoubtKind::varying_normal_stress, {1})));
+}
+
+TEST(MeasuredShear, AStressThatWasSetTellsTestsOfOneLabelApart) {
+  const auto tests = read(rows_of_a_test("sand", 20e3, 0.0) + rows_of_a_test("sand", 40e3, 0.0));
+  ASSERT_EQ(tests.size(), 2U);
+  EXPECT_EQ(tests[1].curve.normal_stress, 40e3);
+  EXPECT_EQ(tests[1].normal_stress_spread, 0.0);
+}
+
 TEST(MeasuredShear, RefusesWhatIsNoShearTest) {
   const auto refused = [](const std::string& text) {
     return soilbin::test::refusal([&] { fit_measured_shear(read_shear(make_source_text(text, "shear.csv"))); });
@@ -101,6 +134,8 @@ TEST(MeasuredShear, RefusesWhatIsNoShearTest) {
   EXPECT_THAT(refused("test,shear_stress_kPa,normal_stress_kPa\n1,2,3\n"),
               HasSubstr("no column holds the displacement"));
   EXPECT_THAT(refused(header + std::string("a,1,2,20\na,2,3,20\n")), HasSubstr("six are needed"));
+  EXPECT_THAT(refused(header + logged_rows("a", 20e3, 0.01) + logged_rows("a", 40e3, 0.01)),
+              HasSubstr("the normal stress of test 'a' goes from"));
   EXPECT_THAT(refused("test,displacement_m,shear_stress_kPa,normal_stress_kPa\na,20,10,20\na,40,12,20\n"),
               HasSubstr("the end of a column's name is the unit"));
 }

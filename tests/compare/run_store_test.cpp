@@ -11,6 +11,8 @@
 #include <set>
 
 #include "bekker_wong/effect_vocabulary.hpp"
+#include "compare/recorded/kept_file.hpp"
+#include "compare/report/sealed_json.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/case.hpp"
 #include "scenario/errors.hpp"
@@ -197,6 +199,31 @@ TEST_F(SlowRunStore, ARunIsALineOfTheJournalUntilThatIsAsLongAsTheFile) {
   }
   EXPECT_FALSE(std::filesystem::exists(file("r.json.journal")));
   EXPECT_EQ(read_bytes(file(), 1 << 26), record_text(recorded_in_turn(list_)));
+}
+
+// As a shard is written, on file systems without locks.
+TEST_F(SlowRunStore, OneWriterKeepsAJournalTooAndTheSameBytes) {
+  std::set<std::filesystem::file_time_type> written;
+  {
+    RunStore store(begun, file(), Writers::one);
+    for (const RunSpec& spec : list_) {
+      get(store, spec), written.insert(std::filesystem::last_write_time(file()));
+      EXPECT_NE(find_run(read_record(file()), spec), nullptr);
+    }
+    EXPECT_LE(written.size(), 7U) << "not once a run";
+  }
+  EXPECT_FALSE(std::filesystem::exists(file("r.json.journal")));
+  EXPECT_EQ(read_bytes(file(), 1 << 26), record_text(recorded_in_turn(list_)));
+}
+
+TEST_F(SlowRunStore, WhatCouldNotBeReadAgainIsNotWritten) {
+  { RunStore(begun, file()).add(list_[0], answered(list_[0])); }
+  const std::string before = read_bytes(file(), 1 << 26);
+  KeptFile kept(
+      file(), Writers::several, [] {}, [] { return std::string(largest_json + 1, ' '); });
+  EXPECT_THAT(soilbin::test::error_of<CannotWrite>([&] { kept.add([] {}, ""); }),
+              HasSubstr("no more than 256 MiB are read again"));
+  EXPECT_EQ(read_bytes(file(), 1 << 26), before);
 }
 
 // What a process that is killed leaves: the file, the journal, half a line of it.

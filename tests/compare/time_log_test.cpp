@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "bekker_wong/effect_vocabulary.hpp"
@@ -213,6 +214,40 @@ TEST(TimeLogs, AreDividedWhereTheClockBreaks) {
   EXPECT_EQ(runs_of(log_at({0.1, 0.1, 0.1}, 100, noise)).runs.size(), 1U);
 }
 
+/// A steady hold of 120 samples, a second apart and with no break, whose clock reads so.
+std::string hold_by_clock(const std::function<std::string(int second)>& clock) {
+  SlowNoise noise(6);
+  std::string csv = "time,load_N,slip,drawbar_pull_N\n";
+  for (int i = 0; i < 120; ++i) csv += fmt::format("{},80,0.1,{:.4f}\n", clock(i), 10 + noise.white());
+  return csv;
+}
+
+/// "23:59:00" and on.
+std::string late(int second) {
+  return fmt::format("{:02}:{:02}:{:02}", second < 60 ? 23 : 0, second < 60 ? 59 : 0, second % 60);
+}
+
+TEST(TimeLogs, PassMidnightAndTheEndOfAMonthUnbroken) {
+  const auto dated = [](const char* before, const char* after) {
+    return hold_by_clock([=](int i) { return fmt::format("{} {}", i < 60 ? before : after, late(i)); });
+  };
+  for (const std::string& csv :
+       {hold_by_clock(late), dated("2026-01-31", "2026-02-01"), dated("12/31/2025", "01/01/2026"),
+        dated("04/05/2026", "05/05/2026"), dated("05/04/2026", "05/05/2026"), dated("28.02.2028", "29.02.2028")}) {
+    const LogRuns made = runs_of(csv);
+    EXPECT_EQ(made.runs.size(), 1U) << csv.substr(30, 30);
+    EXPECT_EQ(made.periods, 1U);
+    EXPECT_THAT(made.notes, IsEmpty());
+  }
+  EXPECT_EQ(runs_of(dated("2026-01-31", "2026-02-02")).periods, 2U) << "a day lies between";
+}
+
+TEST(TimeLogs, SayThatAClockCannotBeRead) {
+  const LogRuns made = runs_of(hold_by_clock([](int i) { return fmt::format("noon and {}", i); }));
+  EXPECT_FALSE(made.has_clock);
+  EXPECT_THAT(made.notes, ElementsAre(HasSubstr("Times that can't be read: 120, the first 'noon and 0'")));
+}
+
 // White noise x with autocorrelation time 9: the error of a mean of n is sd sqrt(9/n), not sd/sqrt(n).
 TEST(TimeLogs, GiveErrorsThatAllowForSamplesBeingAlike) {
   double squares = 0.0, told = 0.0, effective = 0.0;
@@ -332,6 +367,13 @@ TEST(TimeLogs, ClocksAreNumbersOrTimesOfDay) {
   for (const char* other : {"T", "t_ambient", "time_constant", "slip", "torque_Nm"})
     EXPECT_FALSE(names_a_clock(other)) << other;
   EXPECT_FALSE(clock_time("noon"));
+  EXPECT_FALSE(clock_time("2026-02-30T00:00:00")) << "no such day";
+  EXPECT_EQ(clock_time("12:00:01 AM"), 1.0);
+  EXPECT_EQ(clock_time("1:30 pm"), 13.5 * 3600);
+  EXPECT_EQ(clock_time("1970-01-02T00:00:00Z"), 86400.0);
+  for (const char* same : {"2026-01-31T22:51:40Z", "2026-01-31T23:51:40+01:00", "2026-01-31 14:51:40 -0800",
+                           "01/31/2026 10:51:40 PM", "31.01.2026 22:51:40", "31.1.26 22:51:40 UTC"})
+    EXPECT_EQ(clock_time(same), clock_time("2026-01-31T22:51:40")) << same;
   EXPECT_FALSE(clock_time("1:2:3:4"));
 }
 

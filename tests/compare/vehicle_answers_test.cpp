@@ -2,6 +2,7 @@
 
 #include "compare/vehicle/vehicle_answers.hpp"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include "compare/sweep/wheel_limits.hpp"
 #include "compare/telling/reports.hpp"
 #include "compare/vehicle/vehicle_doubts.hpp"
+#include "compare/vehicle/vehicle_errors.hpp"
 #include "scenario/soil_parameters.hpp"
 #include "scenario/unit.hpp"
 #include "tests/scenario/refusal.hpp"
@@ -210,6 +212,52 @@ TEST(VehicleAnswers, ADriveThatOtherSoilsEndAlikeHasAnError) {
   const DrivenAnswers level = driven_answers(vehicle, wheels_of(vehicle), wheel_model, 4);
   ASSERT_FALSE(ends_otherwise(level));
   EXPECT_GT(level.travelled_error.value(), 0.0);
+}
+
+TEST(VehicleAnswers, ADriveErrsWithTheSoilThatItIsDrivenOn) {
+  VehicleCase on_sand = library_vehicle("rover");
+  on_sand.soil = find_soil("dry-sand", Library({cases_folder}));
+  on_sand.condition.slope = 14 * degree, on_sand.drive.duration = 1.5;
+  VehicleCase led_there = on_sand;
+  led_there.soil = find_soil("grc-1", Library({cases_folder}));
+  led_there.drive.profile.resize(1);
+  led_there.drive.profile[0].soil = on_sand.soil, led_there.drive.profile[0].longitudinal_incline = 14 * degree;
+  const double expected = driven_answers(on_sand, wheels_of(on_sand), wheel_model, 2).travelled_error.value();
+  const DrivenAnswers there = driven_answers(led_there, wheels_of(led_there), wheel_model, 2);
+  ASSERT_GT(expected, 0.0);
+  EXPECT_NEAR(there.travelled_error.value(), expected, 1e-3 * expected);
+  EXPECT_TRUE(std::ranges::any_of(
+      there.moved, [](const MovedVehicleDrive& one) { return one.title == "friction angle of dry-sand"; }));
+  EXPECT_THAT(report_on(there).heading, HasSubstr("on dry-sand"));
+  EXPECT_THAT(report_on(there).heading, testing::Not(HasSubstr("grc-1")));
+}
+
+/// Carcasses of 50 and 250 kPa, each to 10 kPa, under tires of these names.
+VehicleCase with_two_carcasses(const std::string& front, const std::string& rear) {
+  const auto axle = [](const std::string& name, double x, const std::string& tire, int carcass) {
+    return fmt::format(
+        "  - {{name: {}, x: {} m, track: 2.05 m, tire: {{{}radius: 0.6 m, width: 0.4 m, inflation_pressure: 200 kPa, "
+        "carcass_pressure: {{value: {} kPa, sd: 10 kPa, source: chosen}}}}}}\n",
+        name, x, tire.empty() ? "" : "name: " + tire + ", ", carcass);
+  };
+  return vehicle_of(
+      "format: soilbin-vehicle-case/1\nname: two\nmass: 11 t\ncentre_of_gravity: {x: 2.4 m, z: 1.4 m}\naxles:\n" +
+      axle("front", 4.5, front, 50) + axle("rear", 0.0, rear, 250) + "soil: sandy-loam\n");
+}
+
+TEST(VehicleAnswers, TiresOfOneNameAreOneOnlyWhereTheyAreAlike) {
+  const auto error_of_power = [](const VehicleCase& vehicle) {
+    std::vector<VehicleWheel> wheels = wheels_of(vehicle);
+    declare_tires(wheels);
+    EXPECT_EQ(doubtful_carcasses(wheels).size(), 2U);
+    return errors_of_steady(vehicle, wheels, wheel_model, vehicle.condition).into_wheels;
+  };
+  const double expected = error_of_power(with_two_carcasses("a", "b"));
+  EXPECT_EQ(error_of_power(with_two_carcasses("same", "same")), expected);
+  EXPECT_EQ(error_of_power(with_two_carcasses("", "")), expected);
+  std::vector<VehicleWheel> wheels = wheels_of(with_two_carcasses("same", "same"));
+  EXPECT_EQ(declare_tires(wheels).size(), 2U) << "both are taken as flexible, each at its pressure";
+  EXPECT_EQ(doubtful_carcasses(wheels)[1].title, "carcass pressure of the tire rear left");
 }
 
 // The rover's weight is in the middle of 1.2 m by 1.3 m and 0.6 m high: it would tip over across at atan(0.65/0.6).

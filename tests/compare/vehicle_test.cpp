@@ -232,6 +232,37 @@ TEST(Vehicle, OnTheOtherSlopeIsItsMirrorImage) {
   }
 }
 
+VehicleCase described_farther_left(VehicleCase vehicle, double by) {
+  vehicle.centre_of_gravity.y += by, vehicle.hitch.at.y += by;
+  for (VehicleAxle& one : vehicle.axles) one.y += by;
+  return vehicle;
+}
+
+TEST(Vehicle, DoesNotHangOnWhereItsFileCountsFrom) {
+  VehicleCase here = rover();
+  here.axles[0].steered = YesNo::yes, here.hitch.at.y = -0.25, here.condition.pull = 20.0;
+  const VehicleCase there = described_farther_left(here, 0.25);  // its hitch is at y = 0, and beside the wheels' middle
+  const SteadyVehicle one = SteadyVehicles(here, wheels_of(here), soft).pulling(here.condition),
+                      other = SteadyVehicles(there, wheels_of(there), soft).pulling(there.condition);
+  ASSERT_GT(std::abs(one.crab), 1e-3);
+  EXPECT_NEAR(other.crab, one.crab, 1e-9);
+  EXPECT_NEAR(other.steering, one.steering, 1e-9);
+  for (std::size_t i = 0; i < one.wheels.size(); ++i)
+    EXPECT_NEAR(other.wheels[i].normal_load, one.wheels[i].normal_load, 1e-6);
+}
+
+// Where its middle is a mean of numbers that no double holds, as 0.1 m is.
+TEST(Vehicle, AlikeOnBothSidesItGoesStraightWhereverItsFileCountsFrom) {
+  for (const double by : {0.1, -0.3, 1.0 / 3.0}) {
+    VehicleCase vehicle = described_farther_left(rover(), by);
+    for (VehicleAxle& one : vehicle.axles) one.track = 1.3;
+    vehicle.axles[0].steered = YesNo::yes;
+    const SteadyVehicle steady = SteadyVehicles(vehicle, wheels_of(vehicle), soft).pulling(vehicle.condition);
+    EXPECT_EQ(steady.crab, 0.0) << by;
+    EXPECT_EQ(steady.steering, 0.0) << by;
+  }
+}
+
 TEST(Vehicle, PowersAddUp) {
   VehicleCase question = rover();
   question.axles[0].driven = YesNo::no;

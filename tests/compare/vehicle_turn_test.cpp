@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bekker_wong/model.hpp"
+#include "compare/telling/reports.hpp"
 #include "scenario/yawed_frames.hpp"
 #include "tests/fixtures.hpp"
 #include "tests/scenario/refusal.hpp"
@@ -70,6 +71,17 @@ SteadyVehicle turning(const VehicleCase& vehicle, double radius, const Model& mo
 
 /// Where the turn of a radius of the centre of gravity has the rear axle's middle, and what steering that is.
 double ackermann(double radius) { return std::atan(1.2 / std::sqrt(radius * radius - 0.5 * 0.5)); }
+
+TEST(VehicleTurn, ItsCsvTellsAWheelOffTheGroundFromOneThatDoesNothing) {
+  TurnAnswers answers{steered_rover(), wheels_of(steered_rover())};
+  answers.turn = VehicleTurn{.radius = 5.0, .vehicle = turning(steered_rover(), 5.0, GroundThatHolds(1e2))};
+  SteadyWheel& lifted = answers.turn->vehicle.wheels[0];
+  lifted = {};
+  lifted.lifted = true;
+  const std::string csv = report_on(answers).csv();
+  EXPECT_THAT(csv, testing::HasSubstr("sinkage_m,off_the_ground\nfront left,5,0,0,,,,,,,1\nfront right,5,"));
+  EXPECT_THAT(csv, testing::EndsWith(",0\n"));
+}
 
 TEST(VehicleTurn, HasAckermannsRadiusWhereNothingSlipsAside) {
   // What is left is the yaw that holds the centrifugal force: the better the ground holds, the less.
