@@ -150,8 +150,8 @@ TEST_F(Pair, AFlexibleTireAgainstRigidGrainsIsSaidAndNeverTheHeadline) {
   EXPECT_THAT(first->text, AllOf(HasSubstr("is 100 N"), Not(HasSubstr(unlike))));
   std::size_t said = 0;
   for (const Clause& clause : summary(comparison))
-    said += clause.text.find("flexible - grains: ") != std::string::npos &&
-            clause.text.find(unlike) != std::string::npos;
+    said +=
+        clause.text.find("flexible - grains: ") != std::string::npos && clause.text.find(unlike) != std::string::npos;
   EXPECT_EQ(said, 3U) << "at each of its channels";
   const Comparison alone = compare_sides(question, {side_of(flexible), grain_side(base, {100}, 40.0)});
   EXPECT_THAT(headline(alone)->text, HasSubstr(unlike));
