@@ -50,9 +50,14 @@ KeptFile::State KeptFile::state() const {
   return state;
 }
 
-void KeptFile::look() {
-  if (file_.empty() || !fs::exists(file_)) return;
-  if (State now = state(); now != known_) read_(), known_ = std::move(now), others_wrote_ = true;
+bool KeptFile::look() {
+  if (file_.empty() || !fs::exists(file_)) return false;
+  State now = state();
+  if (now == known_) return false;
+  const bool written_over = writers_ == Writers::one && !known_.empty();  // what is known here may be lost there
+  read_();
+  known_ = written_over ? State() : std::move(now);  // so add() looks again, and writes the whole file
+  return true;
 }
 
 void KeptFile::add(const std::function<void()>& add, std::string line) {
@@ -61,9 +66,9 @@ void KeptFile::add(const std::function<void()>& add, std::string line) {
   make_folder(folder);
   std::optional<FileLock> lock;
   if (writers_ == Writers::several) lock.emplace(folder, FileLock::Wait::until_free);
-  look();
+  const bool others_wrote = look();
   add();
-  if ((lock || !others_wrote_) && !line.empty() && size_of(journal_of(file_)) + line.size() < size_of(file_)) {
+  if ((lock || !others_wrote) && !line.empty() && size_of(journal_of(file_)) + line.size() < size_of(file_)) {
     std::ranges::replace(line, '\n', ' ');
     append_line(journal_of(file_), line);
   } else {
@@ -72,7 +77,6 @@ void KeptFile::add(const std::function<void()>& add, std::string line) {
     write_file_atomically(file_, text);
     std::error_code ignored;
     fs::remove(journal_of(file_), ignored);
-    others_wrote_ = false;
   }
   known_ = state();
 }

@@ -32,8 +32,8 @@ class KeptFile {
   /// Makes file and journal one. What can't be written stays in the journal.
   ~KeptFile();
 
-  /// Reads, where others have written since.
-  void look();
+  /// Reads, where others have written since; whether they have.
+  bool look();
   /// Reads what others have written, calls `add`, which changes what is known, and keeps that: `line` is the change as
   /// a document, or empty for one that needs the whole file written. Makes missing folders. Throws CannotWrite, also
   /// for a file that would be longer than what is read again (largest_json).
@@ -47,8 +47,7 @@ class KeptFile {
   Writers writers_;
   std::function<void()> read_;
   std::function<std::string()> text_;
-  State known_{};              ///< as they were read or written here last
-  bool others_wrote_ = false;  ///< since the whole file was written here
+  State known_{};  ///< as they were read or written here last
 };
 
 }  // namespace soilbin::compare
