@@ -130,7 +130,7 @@ void add_opening(Report& report, const Comparison& comparison) {
 void add_channels(Report& report, const Comparison& comparison) {
   if (comparison.tallies.empty()) return;
   Table tally = tally_table(comparison);
-  tally.caption += ". Green: within what uncertainty explains";
+  tally.caption += ". Green, on a page: within what uncertainty explains";
   report.add("Channel by channel", std::move(tally), Told::on_screens, "tallies");
   const auto count = [&](DifferenceFinding finding) {
     return std::to_string(

@@ -126,8 +126,9 @@ std::string scatter_sentence(const FailureMapResult& result) {
   for (const FailureRow& row : result.map.rows)
     if (row.difference) squares += std::pow(row.difference->value - mean, 2) / n;
   return fmt::format(
-      "{:.0f} % of the rows lie within 1.96 of their stated errors. The rows scatter by {:.1f} % about their mean, a "
-      "run by {:.1f} % about its own.",
+      "Predicted from the others, {:.0f} % of the conditions lie within the map's 95 % interval. Their differences "
+      "scatter "
+      "by {:.1f} % of the load; a run's own error is {:.1f} %.",
       100 * inside / static_cast<double>(held_out.standardised.size()), 100 * std::sqrt(squares),
       100 * std::sqrt(noise / n));
 }

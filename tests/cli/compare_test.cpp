@@ -172,7 +172,9 @@ TEST(Compare, JudgesAHeavyLuggedTireBeyondTheErrorOfItsGrains) {
   int judged = 0;
   for (const auto& row : comparison["rows"]) {
     if (row["side"].get<std::string>().find("shear_hump") != std::string::npos) {
-      if (row["channel"] == "drawbar_pull" || row["channel"] == "torque") EXPECT_NE(row["finding"], "difference");
+      if (row["channel"] == "drawbar_pull" || row["channel"] == "torque") {
+        EXPECT_NE(row["finding"], "difference");
+      }
       continue;
     }
     if (row["channel"] != "drawbar_pull") continue;
