@@ -258,7 +258,7 @@ TEST_F(Pair, TheHeadlineIsShortAndSpeaksOfTheWidestRow) {
                                                   100 * comparison.question.study.conditions[worst->condition].slip)));
   EXPECT_THAT(clause->text, HasSubstr(": significant. "));
   EXPECT_EQ(tally_table(comparison).header.at(3),
-            fmt::format("mean of {} less {}", name_of(comparison.sides[0]), name_of(comparison.sides[1])));
+            fmt::format("mean of {} - {}", name_of(comparison.sides[0]), name_of(comparison.sides[1])));
 }
 
 // The table's first row is the widest pair; what the errors cannot have made is bad news, what they can is good.

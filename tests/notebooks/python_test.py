@@ -948,7 +948,7 @@ class Vehicles(unittest.TestCase):
     def test_one_that_does_not_travel_says_why(self):
         answer = soilbin.vehicle_on_soil(self.rover(40))
         self.assertEqual(answer["failure"]["why"], "pull")
-        with self.assertRaisesRegex(ValueError, "does not travel: at every slip"):
+        with self.assertRaisesRegex(ValueError, "does not travel: its wheels pull too little"):
             soilbin.wheels_frame(answer)
 
     def test_a_vehicle_of_values_is_the_files(self):
