@@ -22,7 +22,7 @@ struct FakeVocabulary : EffectVocabulary {
               {"passive_blade", {{"a", "-", 1.0, 0.0, 2.0, "amplitude"}}},
               {"tips", {{"lambda", "-", 0.5, 0.0, 2.0, "share"}}}};
     if (id == "shear_hump") return {{"carried", {{"a", "-", 3.0, 0.0, 6.0, "amplitude"}}}};
-    if (id == "interface_limit") return {{"", {{"a", "-", 0.1, 0.0, 1.0, "amplitude"}}}};
+    if (id == "interface_limit") return {{"cap", {{"a", "-", 0.1, 0.0, 1.0, "amplitude"}}}};
     if (id == "exit_angle")
       return {{"rebound", {{"lambda", "-", 0.3, 0.0, 1.1, "share"}}},
               {"unloading", {{"k_u", "kN/m^(n+3)", 1000.0, 0.0, 1e12, "stiffness"}}}};
