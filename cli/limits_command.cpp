@@ -7,6 +7,7 @@
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/question.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/sweep/wheel_limits.hpp"
 #include "compare/telling/reports.hpp"
 
