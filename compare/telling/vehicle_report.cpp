@@ -499,9 +499,9 @@ std::string csv_of(const GoMap& map) {
 
 Report report_on(const VehicleAnswers& answers) {
   const VehicleCase& question = answers.question;
-  Report report{"Vehicle: " + question.name, "Does it go, how steep, and which wheel gives out?",
-                fmt::format("{} ({:.6g} kg) on {}: {}", question.name, question.mass, question.soil.name,
-                            condition_in_words(question.condition))};
+  const std::string asked = fmt::format("{} ({:.6g} kg) on {}: {}", question.name, question.mass, question.soil.name,
+                                        condition_in_words(question.condition));
+  Report report{"Vehicle: " + question.name, asked, asked};
   report.add(KeyFigures{key_figures_of(answers)}, Told::on_pages);
   report.add(Sentences(vehicle_verdicts(answers)));
   report.add(WarningsHere());
