@@ -26,8 +26,6 @@ double turn_of(double unknown) {
   return most * std::tanh(unknown / most);
 }
 
-constexpr double in_one_place = 1e-9;  // [m] what lies closer differs by rounding
-
 constexpr double nearly_all = 0.999;  // of its speed, that a side of a differential loses
 
 }  // namespace

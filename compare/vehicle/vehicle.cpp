@@ -25,8 +25,9 @@ namespace {
 
 /// Whether the wheels of a vehicle stand in more than one place along an axis.
 bool spread(const std::vector<VehicleWheel>& wheels, double VehiclePoint::*axis) {
-  return std::ranges::any_of(
-      wheels, [&](const VehicleWheel& wheel) { return std::abs(wheel.place.*axis - wheels[0].place.*axis) > 1e-9; });
+  return std::ranges::any_of(wheels, [&](const VehicleWheel& wheel) {
+    return std::abs(wheel.place.*axis - wheels[0].place.*axis) > in_one_place;
+  });
 }
 
 /// Whether the wheels stand in one slanting line: then nothing tells how the vehicle stands on it.
@@ -199,7 +200,7 @@ std::vector<VehicleWheel> wheels_of(const VehicleCase& vehicle) {
   for (VehicleWheel& wheel : wheels)
     for (std::size_t i = 0; i < wheels.size(); ++i)
       if (const VehicleWheel& before = wheels[i];
-          before.place.x > wheel.place.x + 1e-9 &&
+          before.place.x > wheel.place.x + in_one_place &&
           std::abs(before.place.y - wheel.place.y) < before.scenario.tire.width / 2)
         wheel.in_rut_of.push_back(i);
   return wheels;

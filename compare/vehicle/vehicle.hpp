@@ -25,6 +25,8 @@ struct VehiclePoint {
   double x = 0.0, y = 0.0, z = 0.0;
 };
 
+inline constexpr double in_one_place = 1e-9;  ///< [m] points that lie closer differ by rounding
+
 /// How the engine's rotation reaches the driven wheels.
 enum class DriveLine {
   locked,      ///< every driven wheel has the same rim speed, but for its axle's lead

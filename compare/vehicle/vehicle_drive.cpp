@@ -99,7 +99,7 @@ void require_both_sides_alike(const VehicleCase& question, const std::vector<Veh
   const char* alike = "a vehicle driven in time is alike on both sides: ";
   if (question.condition.cross_slope != 0.0)
     throw InputError("a vehicle is driven in time straight up or down: it takes no cross slope");
-  const auto beside = [&](double y) { return std::abs(y - question.centre_of_gravity.y) > 1e-9; };
+  const auto beside = [&](double y) { return std::abs(y - question.centre_of_gravity.y) > in_one_place; };
   if (beside(question.hitch.at.y))
     throw InputError(alike + std::string("its hitch does not lie behind its centre of gravity"));
   for (const VehicleAxle& axle : question.axles)

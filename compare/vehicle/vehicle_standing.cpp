@@ -28,7 +28,6 @@ std::vector<double> loads_of_standing(const std::vector<CarryingAxle>& axles, co
     first += axles[i].stiffness * axles[i].place, spread += axles[i].stiffness * lever * axles[i].place;
     widest = std::max(widest, std::abs(lever));
   }
-  constexpr double in_one_place = 1e-9;
   const double b = widest > in_one_place ? (pitch - a * first) / spread : 0.0;
   std::vector<double> loads(axles.size(), 0.0);
   for (std::size_t i = 0; i < axles.size(); ++i)
