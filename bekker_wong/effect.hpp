@@ -97,6 +97,8 @@ PressureLaw pressure_law(std::span<const std::shared_ptr<const Effect>> effects)
 class Effect {
  public:
   virtual ~Effect() = default;
+  /// Once a condition: how the wheel moves, where that is not what the condition tells.
+  virtual void motion(Kinematics&) const {}
   /// Once a condition: the soil's values.
   virtual void soil(SoilValues&, const Surroundings&) const {}
   /// Once a condition: radius, width, shear radius.

@@ -88,6 +88,7 @@ RollingWheel::Prepared RollingWheel::prepare(const OperatingCondition& at) const
       .pumped = std::move(pumped)};
   p.around.normal_load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
   if (!(p.around.normal_load > 0.0)) throw InputError("on this incline no load presses on the ground");
+  for (const auto& effect : effects_) effect->motion(p.around.motion);
   for (const auto& effect : effects_) effect->soil(p.around.soil, p.around);
   for (const auto& effect : effects_) effect->outline(p.outline, p.around);
   return p;

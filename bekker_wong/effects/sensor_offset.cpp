@@ -1,7 +1,10 @@
-// sensor_offset: a channel's zero is off, by the same in every run; or that of the cell that tells the load.
+// sensor_offset: a channel's zero or scale is off, alike in every run; or the zero of the load's cell or of the slip.
 //
 // The load is told, not predicted: where its cell is off the wheel carries W + a, and every channel shows it. On a
 // slope the difference weighs along it too.
+//
+// The slip is told by a rolling radius, that of the zero-slip condition. Where it is (1 + a) r, every speed over the
+// rim's is 1 + a times the one told.
 #include <cmath>
 
 #include "bekker_wong/effects/forms.hpp"
@@ -18,6 +21,29 @@ class Offset final : public Effect {
  private:
   double Reading::*channel_;
   double offset_;
+};
+
+class Gain final : public Effect {
+ public:
+  Gain(double Reading::*channel, double gain) : channel_(channel), gain_(gain) {}
+  void sensor(Reading& reading, const Surroundings&) const override { reading.*channel_ *= 1 + gain_; }
+
+ private:
+  double Reading::*channel_;
+  double gain_;
+};
+
+class SlipZero final : public Effect {
+ public:
+  explicit SlipZero(const std::vector<double>& p) : larger_(p[0]) {}
+  void motion(Kinematics& motion) const override {
+    if (larger_ == 0.0 || motion.locked) return;
+    for (double* ratio : {&motion.forward, &motion.lateral, &motion.travel_ratio}) *ratio *= 1 + larger_;
+    motion.slip = slip_of_ratio(motion.forward);
+  }
+
+ private:
+  double larger_;
 };
 
 /// The wheel carries so much more than the load that is told.
@@ -69,6 +95,28 @@ std::vector<EffectForm> sensor_offset_forms() {
        .form_tolerance = 0.05,
        .steady_only = of_an_instrument,
        .make = maker<LoadOffset>()});
+  forms.push_back(
+      {.id = "sensor_offset",
+       .form = "slip",
+       .equation = "v/(r w) = (1 + a) times the one that the slip tells",
+       .source = "stated here: kinematics",
+       .parameters = {{"a", "-", 0.02, -0.3, 0.3, "rolling radius by which the slip is told, over r, less 1"}},
+       .measurement = true,
+       .form_tolerance = 0.05,
+       .steady_only = of_an_instrument,
+       .make = maker<SlipZero>()});
+  for (const Channel& channel : measured_channels)
+    forms.push_back({.id = "sensor_offset",
+                     .form = std::string(channel.name) + "_gain",
+                     .equation = std::string(channel.name) + " times 1 + a",
+                     .source = "stated here",
+                     .parameters = {{"a", "-", 0.03, -0.5, 0.5, "share by which the scale is off"}},
+                     .measurement = true,
+                     .form_tolerance = 0.05,
+                     .steady_only = of_an_instrument,
+                     .make = [value = channel.value](const std::vector<double>& p) {
+                       return std::make_unique<const Gain>(value, p[0]);
+                     }});
   return forms;
 }
 

@@ -25,7 +25,7 @@ constexpr std::array<EffectTitle, 21> titles = {{
     {"sidewall_bulldozing", "side-wall bulldozing", "at yaw or on a cross slope the wheel's side pushes soil"},
     {"bed_tilt", "bed tilt", "the bed is not level"},
     {"rig_friction", "rig friction", "bearings and drive train take torque"},
-    {"sensor_offset", "sensor offset", "a channel's zero is off"},
+    {"sensor_offset", "sensor offset", "a channel's zero or scale is off, or the zero of load or slip"},
     {"cross_talk", "cross-talk", "one channel leaks into another"},
     {"soil_gradient", "soil gradient", "the soil's strength varies along the bin"},
     {"drift", "drift", "the soil or an instrument drifts from run to run"},

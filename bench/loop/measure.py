@@ -170,7 +170,7 @@ def report(truth, answers, folder):
     print("false alarms on nulls    ", interval(sum(a["verdict"] in ("effect_found", "unknown_effect") for _, a in nulls), len(nulls)))
     print("  baseline AICc only     ", interval(sum(bool(by_aicc(a)) for _, a in nulls), len(nulls)))
     print("  baseline smooth term   ", interval(sum(a["details"]["unnamed_gain"] > math.log(20) for _, a in nulls), len(nulls)))
-    for kind in KINDS:
+    for kind in (*KINDS, "instrument"):
         cases = [(t, a) for t, a in good if t["kind"] == kind and t["verdict"] == "effect_found" and t["ratio_to_detectable"] >= 1.5]
         if cases:
             report_kind(kind, cases)

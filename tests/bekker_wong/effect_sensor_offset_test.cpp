@@ -1,5 +1,6 @@
-// sensor_offset: one channel off by a constant, the others untouched.
+// sensor_offset: one channel off by a constant or in scale, the others untouched; the load's and the slip's zero.
 #include "bekker_wong/bed_fixture.hpp"
+#include "bekker_wong/effects/instrument_channels.hpp"
 
 namespace soilbin::bekker_wong::bed {
 namespace {
@@ -38,6 +39,36 @@ TEST(SensorOffset, OfTheLoadIsTheWheelThatCarriesMore) {
       EXPECT_NEAR(found.sinkage, expected.sinkage, 1e-9);
       EXPECT_NEAR(found.lateral_force, expected.lateral_force, 1e-7 * at.load);
     }
+}
+
+TEST(SensorOffset, GainScalesItsOwnChannelOnly) {
+  for (const Channel& channel : measured_channels)
+    for (const OperatingCondition& at : {driven(800, 0.2), driven(300, -0.5)}) {
+      SCOPED_TRACE(channel.name);
+      Reading expected = base(at);
+      expected.*channel.value *= 1 - 0.12;
+      expect_same_bits(with({"sensor_offset", std::string(channel.name) + "_gain", {{"a", -0.12}}}, at), expected);
+    }
+}
+
+// A slip told by a rolling radius of (1 + a) r: told 0.2 with a = -0.05, v/(r w) is 0.76 and the wheel slips by 0.24.
+TEST(SensorOffset, OfTheSlipIsTheWheelAtTheSlipThatItHas) {
+  const auto told_by = [](double a, OperatingCondition at, double truly) {
+    SCOPED_TRACE(at.slip);
+    const Reading found = with({"sensor_offset", "slip", {{"a", a}}}, at);
+    at.slip = truly;
+    const Reading expected = base(at);
+    EXPECT_NEAR(found.drawbar_pull, expected.drawbar_pull, 1e-9 * at.load);
+    EXPECT_NEAR(found.torque, expected.torque, 1e-9 * at.load);
+    EXPECT_NEAR(found.sinkage, expected.sinkage, 1e-12);
+    EXPECT_NEAR(found.lateral_force, expected.lateral_force, 1e-9 * at.load);
+  };
+  OperatingCondition yawed = driven(800, 0.2);
+  yawed.yaw = 15 * degree;
+  for (const OperatingCondition& at : {driven(800, 0.2), yawed}) told_by(-0.05, at, 0.24);
+  told_by(0.05, driven(800, 0.0), 1 / 1.05 - 1);  // drives no more: v/(r w) = 1.05
+  told_by(0.05, driven(800, 1.0), 1.0);
+  told_by(0.05, driven(800, -1.0), -1.0);
 }
 
 }  // namespace

@@ -5,11 +5,12 @@ from pathlib import Path
 import numpy as np
 
 from . import campaign, sensitivity
-from .families import catalogue, unknown
+from .families import catalogue, instruments, unknown
 
 STREAMS = {"tune": 1, "report": 2, "check": 3}
 KINDS = ("null_rich", "one_rich", "one_poor", "two", "one_rich", "unknown", "null_poor", "one_rich", "one_poor", "outliers",
          "null_rich", "one_rich", "one_poor", "one_rich", "two", "null_poor", "one_poor", "unknown", "one_rich", "null_rich")
+ALONE = (*sorted(set(KINDS)), "instrument")  # what --only takes
 TRIES = 20
 
 
@@ -66,7 +67,7 @@ def refit_ratios(world, forms):
 
 def attempt_known(rng, kind, ids, rich, runs):
     """World, forms, total change, ratio of each; None where these draws give no fair campaign."""
-    kinds = [pick(rng, catalogue()[name]) for name in ids]
+    kinds = [pick(rng, instruments() if kind == "instrument" else catalogue()[name]) for name in ids]
     needs = {need for k in kinds for need in k.NEEDS}
     world = campaign.draw_world(rng, needs, rich, runs)
     if world is None or not all(campaign.usable(world, k) for k in kinds):
@@ -157,7 +158,7 @@ def wanted_ids(set_name, seed, count, only):
     """(kind, ids) of each campaign: the ids go round the catalogue in a shuffled order, so that each comes as often."""
     rng = np.random.default_rng([seed, STREAMS[set_name], 0])
     names = sorted(catalogue())
-    queues = {kind: [] for kind in set(KINDS)}
+    queues = {kind: [] for kind in ALONE}
 
     def take(kind, avoid=()):
         if not any(n not in avoid for n in queues[kind]):
@@ -172,6 +173,8 @@ def wanted_ids(set_name, seed, count, only):
         ids = []
         if kind.startswith("one"):
             ids = [take(kind)]
+        elif kind == "instrument":
+            ids = ["sensor_offset"]
         elif kind == "two":
             first = take(kind)
             ids = [first, take(kind, (first,))]
@@ -192,6 +195,8 @@ def generate(set_name, seed, count, out, only=None, say=lambda text: None, runs=
             if made:
                 break
             say(f"{name}: no fair design for {kind} {ids}")
+            if kind == "instrument":
+                continue
             ids = [names[(names.index(n) + 1 + j) % len(names)] for j, n in enumerate(ids)]
             ids = ids if len(set(ids)) == len(ids) else [ids[0], names[(names.index(ids[0]) + 3) % len(names)]]
         if made is None:

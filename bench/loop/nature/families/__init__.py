@@ -80,6 +80,12 @@ def catalogue():
     return found
 
 
+def instruments():
+    """Form classes of instruments that are out of scale, which the sets of a whole catalogue leave out."""
+    from . import scale
+    return [item for item in vars(scale).values() if isinstance(item, type) and issubclass(item, Form) and item.ID]
+
+
 def unknown():
     """Form classes of effects that the catalogue does not hold."""
     from . import outside
@@ -88,5 +94,5 @@ def unknown():
 
 def build(record):
     """A form from its record {id, form, a, shape} as sidecars keep it."""
-    classes = unknown() if record["id"] is None else catalogue()[record["id"]]
+    classes = unknown() if record["id"] is None else catalogue()[record["id"]] + instruments()
     return next(c for c in classes if c.NAME == record["form"])(record["a"], record["shape"])
