@@ -167,6 +167,21 @@ TEST(SlowLoop, NamesALoadCellThatIsOff) {
   EXPECT_TRUE(in_ambiguity_set(answer, {"sensor_offset"}));
 }
 
+// A slip told by a rolling radius 6 % too large, or a torque cell that shows 12 % too little, on a wheel without lugs:
+// lugs would shift the curves over slip too, and a slide of the tread lower the torque.
+TEST(SlowLoop, NamesInstrumentsThatAreOutOfScale) {
+  for (const EffectChoice& truth : {EffectChoice{"sensor_offset", "slip", {{"a", 0.06}}},
+                                    EffectChoice{"sensor_offset", "torque_gain", {{"a", -0.12}}}}) {
+    SCOPED_TRACE(truth.form);
+    Campaign campaign = sand_campaign();
+    measure(campaign, sweep(), {truth}, fine_noise, 41);
+    const LoopAnswer answer = run_loop(campaign, quick());
+    ASSERT_EQ(answer.verdict(), Verdict::effect_found) << reason_words(answer);
+    EXPECT_TRUE(in_ambiguity_set(answer, {"sensor_offset"}));
+    EXPECT_LT(answer.validation.overall.after, 1.3);
+  }
+}
+
 TEST(SlowLoop, NamesTwoEffects) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {{"multipass", "stiffer", {{"a", 0.8}}}, {"sensor_offset", "drawbar_pull", {{"a", 40.0}}}},
