@@ -160,8 +160,9 @@ struct EffectParameter {
 struct EffectForm {
   std::string id;  ///< of the catalogue
   std::string form;
-  std::string equation;  ///< one line, plain text
-  std::string source;    ///< paper and equation, "after X", or "stated"
+  std::string equation;      ///< one line, plain text
+  std::string source;        ///< paper and equation, "after X", or "stated"
+  std::string meaning = {};  ///< for people, where the form says more than the effect's title; else empty
   std::vector<EffectParameter> parameters;
   bool measurement = false;  ///< an effect of the rig or the bed, not of the wheel on the soil
   /// How far nature may differ from this form, as a share of the effect: what a wrong form leaves over is not taken for

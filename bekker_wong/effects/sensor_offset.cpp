@@ -5,6 +5,8 @@
 //
 // The slip is told by a rolling radius, that of the zero-slip condition. Where it is (1 + a) r, every speed over the
 // rim's is 1 + a times the one told.
+#include <fmt/core.h>
+
 #include <cmath>
 
 #include "bekker_wong/effects/forms.hpp"
@@ -77,6 +79,7 @@ std::vector<EffectForm> sensor_offset_forms() {
                      .form = std::string(channel.name),
                      .equation = std::string(channel.name) + " + a",
                      .source = "stated here",
+                     .meaning = fmt::format("the zero of the {} is off", channel.title),
                      .parameters = {{"a", std::string(channel.unit), channel.usual, -channel.limit, channel.limit,
                                      "offset of the zero"}},
                      .measurement = true,
@@ -90,6 +93,7 @@ std::vector<EffectForm> sensor_offset_forms() {
        .form = "load",
        .equation = "normal load (W + a) cos(alpha) cos(beta_t); F_DP - a sin(alpha), F_y - a cos(alpha) sin(beta_t)",
        .source = "stated here: statics",
+       .meaning = "the zero of the load is off",
        .parameters = {{"a", "N", 5.0, -1e4, 1e4, "what the wheel carries beyond the load that is told"}},
        .measurement = true,
        .form_tolerance = 0.05,
@@ -110,6 +114,7 @@ std::vector<EffectForm> sensor_offset_forms() {
                      .form = std::string(channel.name) + "_gain",
                      .equation = std::string(channel.name) + " times 1 + a",
                      .source = "stated here",
+                     .meaning = fmt::format("the scale of the {} is off", channel.title),
                      .parameters = {{"a", "-", 0.03, -0.5, 0.5, "share by which the scale is off"}},
                      .measurement = true,
                      .form_tolerance = 0.05,

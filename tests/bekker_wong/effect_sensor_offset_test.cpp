@@ -1,4 +1,7 @@
 // sensor_offset: one channel off by a constant or in scale, the others untouched; the load's and the slip's zero.
+#include <set>
+#include <string>
+
 #include "bekker_wong/bed_fixture.hpp"
 #include "bekker_wong/effects/instrument_channels.hpp"
 
@@ -39,6 +42,19 @@ TEST(SensorOffset, OfTheLoadIsTheWheelThatCarriesMore) {
       EXPECT_NEAR(found.sinkage, expected.sinkage, 1e-9);
       EXPECT_NEAR(found.lateral_force, expected.lateral_force, 1e-7 * at.load);
     }
+}
+
+// Ten instruments under one title: each form tells people which one is off.
+TEST(SensorOffset, EachFormHasAMeaningOfItsOwn) {
+  std::set<std::string> meanings;
+  int forms = 0;
+  for (const EffectForm& form : effect_catalogue()) {
+    if (form.id != "sensor_offset") continue;
+    ++forms;
+    EXPECT_FALSE(form.meaning.empty()) << form.form;
+    meanings.insert(form.meaning);
+  }
+  EXPECT_EQ(std::ssize(meanings), forms);
 }
 
 TEST(SensorOffset, GainScalesItsOwnChannelOnly) {
