@@ -77,13 +77,11 @@ void add_campaign(CLI::App& app, Session& session) {
             "made by soilbin run --model dem --record FILE, or a study of the library whose runs are recorded there")
       ->required();
   add_folder(*command, "--output", asked->output, "folder of the campaign")->required();
-  add_value(*command, "--hide", asked->hide, "WHAT",
-            "what the analyst is not told: " + listed(compare::things_to_hide()))
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  add_value(*command, "--effect", asked->effects, "ID[:FORM][,PARAMETER=VALUE...]",
-            "effect that the analyst's model already has; repeatable")
-      ->allow_extra_args(false);
+  add_repeatable(*command, "--hide", asked->hide, "WHAT",
+                 "what the analyst is not told: " + listed(compare::things_to_hide()))
+      ->delimiter(',');
+  add_repeatable(*command, "--effect", asked->effects, "ID[:FORM][,PARAMETER=VALUE...]",
+                 "effect that the analyst's model already has; repeatable");
   add_value(*command, "--soil", asked->soil, "NAME|FILE",
             "soil whose analytic values the analyst is told; by default those of the record's case");
   add_value(*command, "--name", asked->name, "NAME", "name of the campaign; by default the folder's");

@@ -62,12 +62,10 @@ void add_design(CLI::App& app, Session& session) {
   add_value(*command, "--runs", asked->runs, "N", "number of runs to make; 24")->check(whole_number(4, 400));
   add_limits_of_the_rig(*command, asked->limits,
                         "range that the rig can reach, where it is not that of the runs made; repeatable");
-  add_value(*command, "--effect", asked->effects, "ID",
-            "effect to separate; repeatable; all that these ranges can show")
-      ->allow_extra_args(false);
-  add_value(*command, "--noise", asked->noise, "CHANNEL=SD",
-            "standard deviation of one run, for each channel that is measured; repeatable; 2 % of its range")
-      ->allow_extra_args(false);
+  add_repeatable(*command, "--effect", asked->effects, "ID",
+                 "effect to separate; repeatable; all that these ranges can show");
+  add_repeatable(*command, "--noise", asked->noise, "CHANNEL=SD",
+                 "standard deviation of one run, for each channel that is measured; repeatable; 2 % of its range");
   CLI::Option* const rows =
       add_kept_file(*command, "--csv", asked->csv.file, "FILE.csv", "save the rows, to fill in as the campaign's runs")
           ->check(why_no_csv);

@@ -221,8 +221,7 @@ void add_element_test(CLI::App& app, Session& session) {
             "direct-shear, tilting-board, repose, triaxial, plate, cone or shear")
       ->required();
   add_value(*command, "soil", options->soil, "SOIL", "a soil of the library, or a YAML file")->required();
-  add_value(*command, "--stress", options->stresses, "STRESS", "normal or confining stress; may be given again")
-      ->allow_extra_args(false);
+  add_repeatable(*command, "--stress", options->stresses, "STRESS", "normal or confining stress; may be given again");
   add_value(*command, "--packings", options->packings, "N",
             "number of specimens, of the seeds from --packing on; 1, of tilting-board and repose 3")
       ->check(whole_number(1, compare::most_packings));

@@ -59,8 +59,7 @@ void MeasuredFlags::add_to(CLI::App& command, const char* meaning) {
   add_value(command, "--curves", file, "FILE.csv", meaning);
   add_value(command, "--tests", tests, "NAME,NAME,...", "--curves: only these triaxial tests of the file")
       ->needs("--curves");
-  add_value(command, "--only", only, "COLUMN=VALUE", "--curves: only plates of this value; may be given again")
-      ->allow_extra_args(false)
+  add_repeatable(command, "--only", only, "COLUMN=VALUE", "--curves: only plates of this value; may be given again")
       ->needs("--curves");
 }
 
@@ -78,9 +77,8 @@ std::vector<compare::CompressionCurve> MeasuredFlags::triaxial() const {
 }
 
 void PlateFlags::add_to(CLI::App& command) {
-  add_value(command, "--plate", diameters, "DIAMETER",
-            "plates: the diameter of one, or several, 60mm,100mm; 5, 7 and 9 mean diameters of the grains")
-      ->allow_extra_args(false);
+  add_repeatable(command, "--plate", diameters, "DIAMETER",
+                 "plates: the diameter of one, or several, 60mm,100mm; 5, 7 and 9 mean diameters of the grains");
   add_value(command, "--plate-sinkage", sinkage, "DEPTH",
             "plates: how deep they are pressed; 2 mean diameters of the grains");
 }

@@ -142,8 +142,7 @@ void add_gazebo(CLI::App& app, Session& session) {
   const char* map_group = "Map of soils, for the plugin LookupWheelSlip";
   add_file(*command, "--map", options->map, "FILE.png", "save the map: the soil, then each --map-soil, in stripes")
       ->group(map_group);
-  add_value(*command, "--map-soil", options->map_soils, "SOIL", "another soil of the map; repeatable")
-      ->allow_extra_args(false)
+  add_repeatable(*command, "--map-soil", options->map_soils, "SOIL", "another soil of the map; repeatable")
       ->group(map_group);
   add_value(*command, "--map-size", options->map_size, "LENGTH", "side of the map's square on the ground; 10 m")
       ->group(map_group);

@@ -266,9 +266,8 @@ void add_failure_map(CLI::App& app, Session& session) {
       ->check(whole_number(0, most_conditions_of_map));
   add_value(*command, "--tolerance", asked->tolerance, "SHARE",
             "share of the load beyond which the models count as different; 10 %");
-  add_value(*command, "--effect", asked->effects, "ID[:FORM][,PARAMETER=VALUE...]",
-            "effect of the analytic model; repeatable; without one those of the study's, none: the base model")
-      ->allow_extra_args(false);
+  add_repeatable(*command, "--effect", asked->effects, "ID[:FORM][,PARAMETER=VALUE...]",
+                 "effect of the analytic model; repeatable; without one those of the study's, none: the base model");
   add_value(*command, "--store", asked->store, "FILE.json", "keep each run in this file, and go on with what is there");
   command->add_flag("--stored", asked->stored,
                     "answer from the store alone, without running; ranges and flags of the grains are the store's "

@@ -53,10 +53,6 @@ Estimate read_estimate_flag(const std::string& flag, const std::string& text, co
   return estimate;
 }
 
-void set_where_given(const std::string& flag, const std::string& text, const Measure& measure, double& number) {
-  if (!text.empty()) number = read_flag(flag, text, measure);
-}
-
 void check_model(const std::string& name, const std::vector<std::string>& right) {
   if (std::ranges::find(right, name) == right.end())
     throw InputError("--model: unknown model '" + clipped(name) + "'" + did_you_mean(name, right) +
@@ -161,6 +157,11 @@ CLI::Validator whole_number(long long lower, long long upper) {
             return fmt::format("expected a whole number {}, not '{}'", range, clipped(text));
           },
           ""};
+}
+
+CLI::Option* add_repeatable(CLI::App& command, const std::string& flag, std::vector<std::string>& values,
+                            const std::string& type, const std::string& meaning) {
+  return add_value(command, flag, values, type, meaning)->allow_extra_args(false);
 }
 
 CLI::Option* add_file(CLI::App& command, const char* flag, std::string& name, const char* type, const char* meaning) {

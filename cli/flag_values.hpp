@@ -29,7 +29,9 @@ Estimate read_estimate_flag(const std::string& flag, const std::string& text, co
                             const std::optional<Estimate>& before);
 
 /// Sets a number [SI] where the flag was given. Throws InputError that names the flag.
-void set_where_given(const std::string& flag, const std::string& text, const Measure& measure, double& number);
+void set_where_given(const std::string& flag, const std::string& text, const Measure& measure, auto& number) {
+  if (!text.empty()) number = read_flag(flag, text, measure);
+}
 
 /// Throws InputError for a --model that is none of these.
 void check_model(const std::string& name, const std::vector<std::string>& right);
@@ -57,6 +59,10 @@ CLI::Option* add_value(CLI::App& command, const std::string& flag, auto& value, 
                        const std::string& meaning) {
   return command.add_option(flag, value, meaning)->type_name(type);
 }
+
+/// A flag that may be given again, each time with one value.
+CLI::Option* add_repeatable(CLI::App& command, const std::string& flag, std::vector<std::string>& values,
+                            const std::string& type, const std::string& meaning);
 
 /// A flag that names a file to write: tries the place before any work is done, and refuses what can't become one.
 /// Folders that are missing are made when the file is written. `type`: as the help has it, "FILE.csv". A command that

@@ -27,11 +27,11 @@ int plates(const PlatesOptions& options, const Session& session) {
   if (!options.pressure.empty())
     std::tie(window.first, window.last) = read_range("--pressure", options.pressure, {"kPa", zero_or_more});
   std::optional<double> diameter;
-  if (!options.plate.empty()) diameter = read_flag("--plate", options.plate, {"mm", above_zero});
+  set_where_given("--plate", options.plate, {"mm", above_zero}, diameter);
   const std::string name = std::filesystem::path(options.file).filename().string();
   if (!options.by.empty()) {
     std::optional<double> density;
-    if (!options.density.empty()) density = read_flag("--density", options.density, {"kg/m^3", above_zero});
+    set_where_given("--density", options.density, {"kg/m^3", above_zero}, density);
     const compare::PlateGroups groups =
         compare::fit_groups(read_source_text(options.file, compare::largest_plate_csv),
                             {options.by, column_values("--only", options.only), diameter, window, density});
@@ -54,8 +54,8 @@ void add_plates(CLI::App& app, Session& session) {
             "one row a reading: sinkage_m, pressure_kPa or force_N, plate_diameter_m (any units), and a name "
             "for each test")
       ->required();
-  add_value(*command, "--only", options->only, "COLUMN=VALUE", "rows that have this value alone; may be given again")
-      ->allow_extra_args(false);
+  add_repeatable(*command, "--only", options->only, "COLUMN=VALUE",
+                 "rows that have this value alone; may be given again");
   add_value(*command, "--by", options->by, "COLUMN",
             "fits each of the column's values apart: preparations, densities, boxes");
   add_value(*command, "--density", options->density, "DENSITY",

@@ -302,9 +302,8 @@ Question::Question(CLI::App& app, std::vector<std::string> needed, const std::ve
   soil_values_.add_to(app, "Values of the soil, in place of its own");
   condition_.add_to(app, without);
   errors_.add_to(app);
-  add_value(app, "--effect", effects_, "ID[:FORM][,PARAMETER=VALUE...]",
-            "switch an effect on; may be given again; none: the case's off")
-      ->allow_extra_args(false)
+  add_repeatable(app, "--effect", effects_, "ID[:FORM][,PARAMETER=VALUE...]",
+                 "switch an effect on; may be given again; none: the case's off")
       ->group("Model");
 }
 

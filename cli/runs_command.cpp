@@ -49,9 +49,8 @@ void add_runs(CLI::App& app, Session& session) {
             "a campaign whose campaign.yaml says what the log's columns hold; the rows are written under their names");
   add_value(*command, "--by", asked->by, "COLUMN",
             "column that names the runs: they change where it does and nowhere else");
-  add_value(*command, "--only", asked->only, "COLUMN=VALUE",
-            "samples that have this value alone, such as wheel=A; may be given again")
-      ->allow_extra_args(false);
+  add_repeatable(*command, "--only", asked->only, "COLUMN=VALUE",
+                 "samples that have this value alone, such as wheel=A; may be given again");
   asked->outputs.add_to(*command, {.json = "soilbin-runs/1, in SI", .csv = "save the rows, as a campaign's runs.csv"});
   command->footer("Example: soilbin runs log.csv --csv runs.csv");
   command->callback([=, &session] { session.action = [=, &session] { return runs(*asked, session); }; });

@@ -22,8 +22,7 @@ struct ShearOptions {
 
 int shear(const ShearOptions& options, const Session& session) {
   std::optional<double> normal_stress;
-  if (!options.normal_stress.empty())
-    normal_stress = read_flag("--normal-stress", options.normal_stress, {"kPa", above_zero});
+  set_where_given("--normal-stress", options.normal_stress, {"kPa", above_zero}, normal_stress);
   const std::vector<compare::MeasuredShear> tests = compare::read_shear(
       read_source_text(options.file, compare::largest_plate_csv), column_values("--only", options.only), normal_stress);
   const compare::MeasuredShearFit fit = compare::fit_measured_shear(tests);
@@ -41,8 +40,8 @@ void add_shear(CLI::App& app, Session& session) {
             "one row a reading: displacement_mm, shear_stress_kPa, normal_stress_kPa (any units), and a name for each "
             "test")
       ->required();
-  add_value(*command, "--only", options->only, "COLUMN=VALUE", "rows that have this value alone; may be given again")
-      ->allow_extra_args(false);
+  add_repeatable(*command, "--only", options->only, "COLUMN=VALUE",
+                 "rows that have this value alone; may be given again");
   add_value(*command, "--normal-stress", options->normal_stress, "STRESS", "of all tests, where no column gives it");
   options->outputs.add_to(*command,
                           {.json = "soilbin-shear/1, in SI", .plot = "draw the readings and Janosi's curves"});

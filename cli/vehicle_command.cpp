@@ -42,36 +42,11 @@ class StoppableWheel : public Model {
   bekker_wong::BekkerWong wheel_{{.errors = false, .patch = false}};
 };
 
-int drive_in_time(const VehicleOptions& options, const compare::VehicleCase& question,
-                  const std::vector<compare::VehicleWheel>& wheels, const Model& model, compare::Doubts notes,
-                  const Session& session) {
-  options.asked.refuse_what_its_drive_says(question.drive);
-  const compare::DrivenAnswers answers =
-      compare::driven_answers(question, wheels, model, drive_intervals, shown_progress_in_time());
-  return publish(compare::report_on(answers), options.outputs, doubts_about(answers, std::move(notes)), session)
-      .status(done);
-}
-
-int turn_steadily(const VehicleOptions& options, const compare::VehicleCase& question,
-                  const std::vector<compare::VehicleWheel>& wheels, const Model& model, compare::Doubts notes,
-                  const Session& session) {
+compare::TurnAsked turn_asked(const VehicleOptions& options) {
   compare::TurnAsked asked;
-  if (!options.radius.empty()) asked.radius = read_flag("--radius", options.radius, {"m", any_value});
-  if (!options.steer.empty()) asked.steer = read_flag("--steer", options.steer, {"deg", inclines});
-  const compare::TurnAnswers answers = compare::turn_of(question, wheels, model, asked);
-  return publish(compare::report_on(answers), options.outputs, doubts_about(answers, std::move(notes)), session)
-      .status(done);
-}
-
-int beside_measured(const VehicleOptions& options, const compare::VehicleCase& question,
-                    const std::vector<compare::VehicleWheel>& wheels, const Model& model, compare::Doubts notes,
-                    const Session& session) {
-  const compare::MeasuredVehicle measured =
-      compare::read_measured_vehicle(read_source_text(options.measured, largest_csv));
-  options.asked.refuse_what_is_measured(measured);
-  const compare::MeasuredAnswers answers = compare::beside_measured(question, wheels, model, measured);
-  return publish(compare::report_on(answers), options.outputs, doubts_about(answers, std::move(notes)), session)
-      .status(done);
+  set_where_given("--radius", options.radius, {"m", any_value}, asked.radius);
+  set_where_given("--steer", options.steer, {"deg", inclines}, asked.steer);
+  return asked;
 }
 
 int vehicle(const VehicleOptions& options, const Session& session) {
@@ -79,15 +54,25 @@ int vehicle(const VehicleOptions& options, const Session& session) {
   std::vector<compare::VehicleWheel> wheels = wheels_of(question);
   compare::Doubts notes = declare_tires(wheels, options.asked.left_out());
   const StoppableWheel model;
-  if (options.drive) return drive_in_time(options, question, wheels, model, std::move(notes), session);
-  if (!options.measured.empty()) return beside_measured(options, question, wheels, model, std::move(notes), session);
-  if (options.turn) return turn_steadily(options, question, wheels, model, std::move(notes), session);
+  const auto publish_about = [&](const auto& answers) {
+    return publish(compare::report_on(answers), options.outputs, doubts_about(answers, std::move(notes)), session);
+  };
+  if (options.drive) {
+    options.asked.refuse_what_its_drive_says(question.drive);
+    return publish_about(compare::driven_answers(question, wheels, model, drive_intervals, shown_progress_in_time()))
+        .status(done);
+  }
+  if (!options.measured.empty()) {
+    const auto measured = compare::read_measured_vehicle(read_source_text(options.measured, largest_csv));
+    options.asked.refuse_what_is_measured(measured);
+    return publish_about(compare::beside_measured(question, wheels, model, measured)).status(done);
+  }
+  if (options.turn) return publish_about(compare::turn_of(question, wheels, model, turn_asked(options))).status(done);
   compare::VehicleAnswers answers = compare::answers_of(question, wheels, model);
   if (!options.map.empty())
     answers.map = compare::go_map(question, wheels, model,
                                   {.samples = static_cast<int>(options.samples), .progress = shown_progress()});
-  const compare::Doubts doubts = compare::doubts_about(answers, std::move(notes));
-  Outputs outputs = publish(compare::report_on(answers), options.outputs, doubts, session);
+  Outputs outputs = publish_about(answers);
   outputs.table_or_drawing(
       options.map, [&] { return compare::csv_of(*answers.map); }, [&] { return compare::svg_of(*answers.map); });
   return outputs.status(done);

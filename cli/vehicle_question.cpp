@@ -38,9 +38,8 @@ VehicleQuestion::VehicleQuestion(CLI::App& app) {
       ->group("Vehicle, in place of the file's");
   add_value(app, "--soil", soil_, "NAME|FILE", "in place of the file's soil");
   soil_values_.add_to(app, "Values of the soil, in place of its own");
-  add_value(app, "--effect", effects_, "ID[:FORM][,PARAMETER=VALUE...]",
-            "in place of the file's effects; may be given again; none: they are off")
-      ->allow_extra_args(false)
+  add_repeatable(app, "--effect", effects_, "ID[:FORM][,PARAMETER=VALUE...]",
+                 "in place of the file's effects; may be given again; none: they are off")
       ->group("Model");
   app.add_flag("--rigid", left_out_.pressure, "rigid wheels, whatever pressure the tires declare")->group("Model");
   app.add_flag("--no-lugs", left_out_.lugs, "smooth wheels, whatever lugs the tires declare")->group("Model");

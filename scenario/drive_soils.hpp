@@ -29,4 +29,13 @@ inline bool is_same_soil(const Soil& one, const Soil& other) {
   });
 }
 
+/// soils_of_way without those that return.
+inline std::vector<Soil*> soils_once(Soil& own, std::vector<Waypoint>& profile) {
+  std::vector<Soil*> once;
+  for (Soil* soil : soils_of_way(own, profile))
+    if (std::ranges::none_of(once, [&](const Soil* before) { return is_same_soil(*before, *soil); }))
+      once.push_back(soil);
+  return once;
+}
+
 }  // namespace soilbin

@@ -63,12 +63,8 @@ void add_effect_values(const Drive& drive, std::vector<Uncertain>& values) {
 
 std::vector<Uncertain> uncertain_values(Case question) {
   std::vector<Uncertain> values;
-  const std::vector<Soil*> soils = soils_of_way(question.scenario.soil, question.drive->profile);
-  for (std::size_t k = 0; k < soils.size(); ++k) {
-    const bool returns = std::any_of(soils.begin(), soils.begin() + static_cast<std::ptrdiff_t>(k),
-                                     [&](const Soil* before) { return is_same_soil(*before, *soils[k]); });
-    if (soils[k]->semi_empirical && !returns) add_soil_values(*soils[k], k == 0, values);
-  }
+  for (const Soil* soil : soils_once(question.scenario.soil, question.drive->profile))
+    if (soil->semi_empirical) add_soil_values(*soil, soil == &question.scenario.soil, values);
   add_effect_values(*question.drive, values);
   return values;
 }

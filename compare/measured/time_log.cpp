@@ -7,6 +7,7 @@
 #include <cctype>
 #include <chrono>
 #include <cmath>
+#include <ranges>
 
 #include "scenario/csv.hpp"
 #include "scenario/nearest_word.hpp"
@@ -42,26 +43,25 @@ struct ReadClock {
   bool of_day = false;  ///< 12:30:05 without a date: begins again at midnight
 };
 
-std::vector<std::string> parted_at(const std::string& text, char mark) {
-  std::vector<std::string> parts;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t end = std::min(text.find(mark, at), text.size());
-    parts.push_back(text.substr(at, end - at)), at = end + 1;
+/// The numbers of a text between these marks, none below 0; nothing where one is no number.
+std::optional<std::vector<double>> numbers_between(const std::string& text, char mark) {
+  std::vector<double> numbers;
+  for (const auto part : std::views::split(text, mark)) {
+    const std::optional<double> number = read_number(std::string(part.begin(), part.end()));
+    if (!number || *number < 0.0) return std::nullopt;
+    numbers.push_back(*number);
   }
-  return parts;
+  return numbers;
 }
 
 /// Its days from 1970 on: 2026-01-31, 31.01.2026, 01/31/2026, 31/01/2026.
 std::optional<double> days_of_date(const std::string& date, DateOrder order) {
   const std::size_t mark = date.find_first_of("-./");
   if (mark == date.npos) return std::nullopt;
-  std::vector<int> parts;
-  for (const std::string& part : parted_at(date, date[mark])) {
-    const std::optional<double> number = read_number(part);
-    if (!number || *number < 0.0 || *number > 9999.0) return std::nullopt;
-    parts.push_back(static_cast<int>(*number));
-  }
-  if (parts.size() != 3) return std::nullopt;
+  const std::optional<std::vector<double>> numbers = numbers_between(date, date[mark]);
+  constexpr double most = 9999.0;
+  if (!numbers || numbers->size() != 3 || std::ranges::max(*numbers) > most) return std::nullopt;
+  std::vector<int> parts(numbers->begin(), numbers->end());
   constexpr std::size_t digits_of_year = 4;
   const bool year_first = mark == digits_of_year;
   if (year_first) std::swap(parts[0], parts[2]);
@@ -76,16 +76,12 @@ std::optional<double> days_of_date(const std::string& date, DateOrder order) {
 
 /// 12:30:05.25, and 12:30 where that can't be minutes and seconds.
 std::optional<double> seconds_of_day(const std::string& text, bool hours_lead) {
-  const std::vector<std::string> parts = parted_at(text, ':');
-  if (parts.size() < 2 || parts.size() > 3) return std::nullopt;
+  const std::optional<std::vector<double>> parts = numbers_between(text, ':');
+  if (!parts || parts->size() < 2 || parts->size() > 3) return std::nullopt;
   constexpr double sixty = 60.0;
   double seconds = 0.0;
-  for (const std::string& part : parts) {
-    const std::optional<double> number = read_number(part);
-    if (!number || *number < 0.0) return std::nullopt;
-    seconds = sixty * seconds + *number;
-  }
-  return hours_lead && parts.size() == 2 ? sixty * seconds : seconds;
+  for (const double part : *parts) seconds = sixty * seconds + part;
+  return hours_lead && parts->size() == 2 ? sixty * seconds : seconds;
 }
 
 /// Whether a text ends so; then without that and the blanks before it.

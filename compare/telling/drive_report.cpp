@@ -27,52 +27,34 @@ using bekker_wong::DriveSample;
 using bekker_wong::EnergyLedger;
 
 /// What every kind of sample has: `of_its_own` stand behind the slip, `of_its_energy` at the end.
-template <class Sample>
-DriveColumns<Sample> drive_columns(const DriveColumns<Sample>& of_its_own, const DriveColumns<Sample>& of_its_energy) {
-  using S = Sample;
-  DriveColumns<S> all = {
-      {"time_s", [](const S& s) { return s.time; }},
-      {"travelled_m", [](const S& s) { return s.travelled; }},
-      {"speed_m_s", [](const S& s) { return s.speed; }},
-      {"rim_speed_m_s", [](const S& s) { return s.rim_speed; }},
-      {"slip", [](const S& s) { return s.slip.value_or(not_a_number); }},
-  };
-  all.insert(all.end(), of_its_own.begin(), of_its_own.end());
-  const DriveColumns<S> more = {
-      {"sinkage_m", [](const S& s) { return s.sinkage; }},
-      {"torque_Nm", [](const S& s) { return s.torque; }},
-      {"soil_force_N", [](const S& s) { return s.forward; }},
-      {"lateral_force_N", [](const S& s) { return s.lateral; }},
-      {"drawbar_N", [](const S& s) { return s.drawbar; }},
-      {"longitudinal_incline_deg", [](const S& s) { return s.longitudinal_incline / degree; }},
-      {"motor_J", [](const S& s) { return s.energy.motor; }},
-      {"kinetic_J", [](const S& s) { return s.energy.kinetic; }},
-      {"height_J", [](const S& s) { return s.energy.height; }},
-      {"drawbar_J", [](const S& s) { return s.energy.drawbar; }},
-  };
-  all.insert(all.end(), more.begin(), more.end());
-  all.insert(all.end(), of_its_energy.begin(), of_its_energy.end());
+template <class S>
+DriveColumns<S> drive_columns(const DriveColumns<S>& of_its_own, const DriveColumns<S>& of_its_energy) {
+  DriveColumns<S> all = {{"time_s", &S::time},
+                         {"travelled_m", &S::travelled},
+                         {"speed_m_s", &S::speed},
+                         {"rim_speed_m_s", &S::rim_speed},
+                         {"slip", slip_or_none}};
+  const DriveColumns<S> more = {{"sinkage_m", &S::sinkage},
+                                {"torque_Nm", &S::torque},
+                                {"soil_force_N", &S::forward},
+                                {"lateral_force_N", &S::lateral},
+                                {"drawbar_N", &S::drawbar},
+                                {"longitudinal_incline_deg", in_degrees(&S::longitudinal_incline)},
+                                {"motor_J", energy(&WheelEnergy::motor)},
+                                {"kinetic_J", energy(&WheelEnergy::kinetic)},
+                                {"height_J", energy(&WheelEnergy::height)},
+                                {"drawbar_J", energy(&WheelEnergy::drawbar)}};
+  for (const DriveColumns<S>* columns : {&of_its_own, &more, &of_its_energy})
+    all.insert(all.end(), columns->begin(), columns->end());
   return all;
 }
 
-template <class Sample>
-std::string names_csv(const DriveColumns<Sample>& columns) {
-  std::string text;
-  for (const DriveColumn<Sample>& column : columns) text += (text.empty() ? "" : ",") + std::string(column.name);
-  return text + "\n";
-}
-
-/// A line a sample; nothing between the commas for what is not a number.
+/// A line a sample.
 template <class Sample>
 std::string samples_csv(const DriveColumns<Sample>& columns, const std::vector<Sample>& samples,
                         const std::string& first_cell = "") {
   std::string text;
-  for (const Sample& sample : samples) {
-    text += first_cell;
-    for (const DriveColumn<Sample>& column : columns)
-      text += (&column == columns.data() ? "" : ",") + csv_number(column.get(sample));
-    text += "\n";
-  }
+  for (const Sample& sample : samples) text += first_cell + sample_csv(columns, sample) + "\n";
   return text;
 }
 
@@ -81,8 +63,6 @@ Json happenings_json(const std::vector<DriveHappening>& happenings) {
     return Json{{"time", h.time}, {"travelled", h.travelled}, {"what", std::string(word_of(h.what))}};
   });
 }
-
-double slip_of(const DriveSample& s) { return s.slip.value_or(not_a_number); }
 
 std::string heading_of(const Case& question) {
   return fmt::format("{}: {} on {}", question.name, in_words(question.scenario.tire), in_words(question.scenario.soil));
@@ -296,45 +276,38 @@ Sheet drive_sheet(const AnalyticDrive& part) {
   };
   add("Speed [cm/s]", {{"travel", [](const DriveSample& s) { return 100 * s.speed; }},
                        {"rim", [](const DriveSample& s) { return 100 * s.rim_speed; }}});
-  add("Slip [%]", {{"by the speeds of the instant", [](const DriveSample& s) { return 100 * slip_of(s); }},
+  add("Slip [%]", {{"by the speeds of the instant", [](const DriveSample& s) { return 100 * slip_or_none(s); }},
                    {"seen by the soil in contact", [](const DriveSample& s) { return 100 * s.contact_slip; }}});
   add("Sinkage [mm]", {{"", [](const DriveSample& s) { return 1000 * s.sinkage; }}});
-  add("Torque [N m]", {{"", [](const DriveSample& s) { return s.torque; }}});
+  add("Torque [N m]", {{"", &DriveSample::torque}});
   const double load = part.question.drive->load;
   add("Along travel [N]",
-      {{"force of the soil", [](const DriveSample& s) { return s.forward; }},
+      {{"force of the soil", &DriveSample::forward},
        {"slope's share of the load", [load](const DriveSample& s) { return load * std::sin(s.longitudinal_incline); }},
-       {"drawbar load", [](const DriveSample& s) { return s.drawbar; }}});
-  add("Energy [J]", {{"motor's work", [](const DriveSample& s) { return s.energy.motor; }},
-                     {"shears the soil", [](const DriveSample& s) { return s.energy.shear; }},
-                     {"presses the soil", [](const DriveSample& s) { return s.energy.compaction; }},
-                     {"lifts the load", [](const DriveSample& s) { return s.energy.height; }},
-                     {"pulls the drawbar", [](const DriveSample& s) { return s.energy.drawbar; }}});
+       {"drawbar load", &DriveSample::drawbar}});
+  add("Energy [J]", {{"motor's work", energy(&EnergyLedger::motor)},
+                     {"shears the soil", energy(&EnergyLedger::shear)},
+                     {"presses the soil", energy(&EnergyLedger::compaction)},
+                     {"lifts the load", energy(&EnergyLedger::height)},
+                     {"pulls the drawbar", energy(&EnergyLedger::drawbar)}});
   return sheet;
 }
 
 const DriveColumns<DriveSample>& sample_columns() {
-  using S = DriveSample;
-  static const DriveColumns<S> all =
-      drive_columns<S>({{"contact_slip", [](const S& s) { return s.contact_slip; }}},
-                       {
-                           {"compaction_J", [](const S& s) { return s.energy.compaction; }},
-                           {"shear_J", [](const S& s) { return s.energy.shear; }},
-                           {"added_forces_J", [](const S& s) { return s.energy.added; }},
-                           {"damping_J", [](const S& s) { return s.energy.damping; }},
-                           {"unaccounted_J", [](const S& s) { return s.energy.unaccounted(); }},
-                           {"carcass_J", [](const S& s) { return s.energy.carcass; }},
-                       });
+  static const DriveColumns<DriveSample> all = drive_columns<DriveSample>(
+      {{"contact_slip", &DriveSample::contact_slip}}, {{"compaction_J", energy(&EnergyLedger::compaction)},
+                                                       {"shear_J", energy(&EnergyLedger::shear)},
+                                                       {"added_forces_J", energy(&EnergyLedger::added)},
+                                                       {"damping_J", energy(&EnergyLedger::damping)},
+                                                       {"unaccounted_J", energy(&EnergyLedger::unaccounted)},
+                                                       {"carcass_J", energy(&EnergyLedger::carcass)}});
   return all;
 }
 
 Json moved_side_json(const MovedDrive& drive, const MovedDrive::Side& side) {
   if (!drive.was_moved(side)) return nullptr;
-  if (!side.record) return {{"value", side.value}, {"end", nullptr}, {"end_time", nullptr}, {"travelled", nullptr}};
-  return {{"value", side.value},
-          {"end", std::string(word_of(side.record->end))},
-          {"end_time", side.record->end_time},
-          {"travelled", side.record->samples.back().travelled}};
+  if (!side.record) return moved_drive_json(side.value, std::nullopt, 0.0, 0.0);
+  return moved_drive_json(side.value, side.record->end, side.record->end_time, side.record->samples.back().travelled);
 }
 
 Json errors_json(const DriveErrors& errors) {
@@ -373,7 +346,7 @@ Json drive_json(const AnalyticDrive& part) {
 }
 
 std::string drive_csv(const AnalyticDrive& part) {
-  return names_csv(sample_columns()) + samples_csv(sample_columns(), part.record.samples);
+  return names_csv(sample_columns()) + "\n" + samples_csv(sample_columns(), part.record.samples);
 }
 
 // Both models side by side.
@@ -465,7 +438,7 @@ Table packings_table(const DriveSides& drive) {
 
 const DriveColumns<DriveSideSample>& side_columns() {
   static const DriveColumns<DriveSideSample> all =
-      drive_columns<DriveSideSample>({}, {{"soil_J", [](const DriveSideSample& s) { return s.soil; }}});
+      drive_columns<DriveSideSample>({}, {{"soil_J", &DriveSideSample::soil}});
   return all;
 }
 
@@ -607,15 +580,15 @@ Sheet drive_sheet(const DriveSides& drive) {
   using S = DriveSideSample;
   using M = dem::SteadyDrive;
   Sheet sheet{drive.question.name};
-  for (const Panel& panel : std::initializer_list<Panel>{
-           {"Travelled [m]", 1, [](const S& s) { return s.travelled; }},
-           {"Speed [cm/s]", 100, [](const S& s) { return s.speed; }, &M::speed},
-           {"Slip [%]", 100, [](const S& s) { return s.slip.value_or(not_a_number); }, &M::slip},
-           {"Sinkage [mm]", 1000, [](const S& s) { return s.sinkage; }, &M::sinkage},
-           {"Torque [N m]", 1, [](const S& s) { return s.torque; }, &M::torque},
-           {"Force of the soil along travel [N]", 1, [](const S& s) { return s.forward; }, &M::forward},
-           {"Motor's work [J]", 1, [](const S& s) { return s.energy.motor; }},
-           {"Work given to the soil [J]", 1, [](const S& s) { return s.soil; }}})
+  for (const Panel& panel :
+       std::initializer_list<Panel>{{"Travelled [m]", 1, &S::travelled},
+                                    {"Speed [cm/s]", 100, &S::speed, &M::speed},
+                                    {"Slip [%]", 100, slip_or_none, &M::slip},
+                                    {"Sinkage [mm]", 1000, &S::sinkage, &M::sinkage},
+                                    {"Torque [N m]", 1, &S::torque, &M::torque},
+                                    {"Force of the soil along travel [N]", 1, &S::forward, &M::forward},
+                                    {"Motor's work [J]", 1, energy(&WheelEnergy::motor)},
+                                    {"Work given to the soil [J]", 1, &S::soil}})
     sheet.plots.push_back(plot_of(drive, panel));
   return sheet;
 }
@@ -640,7 +613,7 @@ Json drive_json(const DriveSides& drive) {
 }
 
 std::string drive_csv(const DriveSides& drive) {
-  std::string text = "model," + names_csv(side_columns());
+  std::string text = "model," + names_csv(side_columns()) + "\n";
   for (const DriveSide& side : drive.sides) text += samples_csv(side_columns(), side.samples, side.label + ",");
   return text;
 }

@@ -327,17 +327,29 @@ std::vector<std::string> in_sentences(const FailureMapResult& result) {
   return all;
 }
 
+std::vector<std::string> headings_of(const std::vector<Factor>& factors) {
+  std::vector<std::string> headings;
+  for (const Factor& factor : factors) headings.push_back(heading(factor.name, factor.unit));
+  return headings;
+}
+
+/// Values of the factors, each in its unit.
+std::vector<TableCell> factor_cells(const std::vector<Factor>& factors, const Eigen::VectorXd& values) {
+  std::vector<TableCell> cells;
+  for (std::size_t j = 0; j < factors.size(); ++j)
+    cells.push_back(number(values[static_cast<Index>(j)] * per_unit(factors[j].unit)));
+  return cells;
+}
+
 Table rows_table(const FailureMapResult& result) {
-  Table table{fmt::format("Every condition run, in order: {}, share of the load", less_in_words(result.asked)), {}};
+  Table table{fmt::format("Every condition run, in order: {}, share of the load", less_in_words(result.asked)),
+              headings_of(result.question.factors)};
   const bool twins = result.map.resolution_error.has_value();
-  for (const Factor& factor : result.question.factors) table.header.push_back(heading(factor.name, factor.unit));
   table.header.insert(table.header.end(), {"difference [%]", "cross-validated [%]", "beyond"});
   if (twins) table.header.insert(table.header.end(), {"error of resolution [%]", "by the map"});
   Index k = 0;
   for (const FailureRow& row : result.map.rows) {
-    std::vector<TableCell> cells;
-    for (std::size_t j = 0; j < result.question.factors.size(); ++j)
-      cells.push_back(number(row.values[j] * per_unit(result.question.factors[j].unit)));
+    std::vector<TableCell> cells = factor_cells(result.question.factors, row.values);
     if (row.difference) {
       const double predicted = row.difference->value - result.map.held_out.residual[k];
       cells.insert(cells.end(), {in_percent(*row.difference), fmt::format("{:.1f}", 100 * predicted),
@@ -374,13 +386,10 @@ Table lugs_table(const FailureMapResult& result) {
 }
 
 Table checks_table(const FailureMapResult& result) {
-  Table table{"Fresh conditions: predicted, then run", {}};
-  for (const Factor& factor : result.question.factors) table.header.push_back(heading(factor.name, factor.unit));
+  Table table{"Fresh conditions: predicted, then run", headings_of(result.question.factors)};
   table.header.insert(table.header.end(), {"predicted [%]", "found [%]", "difference [standard errors]"});
   for (const FreshCheck& check : result.checks) {
-    std::vector<TableCell> cells;
-    for (std::size_t j = 0; j < result.question.factors.size(); ++j)
-      cells.push_back(number(check.values[j] * per_unit(result.question.factors[j].unit)));
+    std::vector<TableCell> cells = factor_cells(result.question.factors, check.values);
     cells.push_back(in_percent(check.predicted));
     cells.push_back(check.found ? in_percent(*check.found) : "not answered");
     cells.push_back(check.found ? fmt::format("{:.1f}", check.sigma()) : "-");

@@ -15,6 +15,7 @@ namespace soilbin::compare {
 namespace {
 
 using cone_index::Mobility;
+using cone_index::MobilityFactors;
 using cone_index::Passage;
 
 std::string kilopascals(const Estimate& pressure) { return number(pressure, 1e-3) + " kPa"; }
@@ -47,21 +48,26 @@ Table needs_table(const Mobility& mobility) {
   return table;
 }
 
-Table factors_table(const Mobility& mobility) {
-  const cone_index::MobilityFactors& f = mobility.index.factors;
+/// A factor of the mobility index: its key in documents, and its name for people.
+struct ToldFactor {
+  const char *key, *name;
+  double MobilityFactors::*value;
+};
+constexpr ToldFactor told_factors[] = {
+    {"contact_pressure", "CPF, contact pressure", &MobilityFactors::contact_pressure},
+    {"weight", "WF, weight", &MobilityFactors::weight},
+    {"tire", "TF, tire", &MobilityFactors::tire},
+    {"grouser", "GF, chains", &MobilityFactors::grouser},
+    {"wheel_load", "WLF, load a wheel", &MobilityFactors::wheel_load},
+    {"clearance", "CF, clearance", &MobilityFactors::clearance},
+    {"engine", "EF, engine", &MobilityFactors::engine},
+    {"transmission", "TrF, transmission", &MobilityFactors::transmission}};
+
+Table factors_table(const cone_index::VehicleConeIndex& index) {
   Table table{"", {"part", "value"}};
-  const std::pair<const char*, double> parts[] = {
-      {"CPF, contact pressure", f.contact_pressure},
-      {"WF, weight", f.weight},
-      {"TF, tire", f.tire},
-      {"GF, chains", f.grouser},
-      {"WLF, load a wheel", f.wheel_load},
-      {"CF, clearance", f.clearance},
-      {"EF, engine", f.engine},
-      {"TrF, transmission", f.transmission},
-      {"MI = (CPF WF/(TF GF) + WLF - CF) EF TrF", mobility.index.mobility_index},
-      {"DCF, deflection, on VCI1 alone", mobility.index.deflection_factor}};
-  for (const auto& [name, value] : parts) table.add({name, number(value)});
+  for (const ToldFactor& factor : told_factors) table.add({factor.name, number(index.factors.*factor.value)});
+  table.add({"MI = (CPF WF/(TF GF) + WLF - CF) EF TrF", number(index.mobility_index)});
+  table.add({"DCF, deflection, on VCI1 alone", number(index.deflection_factor)});
   return table;
 }
 
@@ -85,20 +91,13 @@ std::vector<std::string> sources_in_words(const Mobility& mobility) {
 
 Json mobility_json(const Mobility& mobility) {
   const cone_index::VehicleConeIndex& index = mobility.index;
-  const cone_index::MobilityFactors& f = index.factors;
+  Json factors = Json::object();
+  for (const ToldFactor& factor : told_factors) factors[factor.key] = index.factors.*factor.value;
+  factors["deflection"] = index.deflection_factor;
   Json document = {{"format", "soilbin-mobility/1"},
                    {"vehicle", mobility.vehicle.name},
                    {"mobility_index", index.mobility_index},
-                   {"factors",
-                    {{"contact_pressure", f.contact_pressure},
-                     {"weight", f.weight},
-                     {"tire", f.tire},
-                     {"grouser", f.grouser},
-                     {"wheel_load", f.wheel_load},
-                     {"clearance", f.clearance},
-                     {"engine", f.engine},
-                     {"transmission", f.transmission},
-                     {"deflection", index.deflection_factor}}},
+                   {"factors", std::move(factors)},
                    {"vci1", index.one_pass},
                    {"vci50", index.fifty_passes},
                    {"mean_maximum_pressure", mobility.pressure ? Json(mobility.pressure->value) : Json()},
@@ -124,7 +123,7 @@ Report report_on(const Mobility& mobility, const std::string& soil) {
   report.add(Sentences(verdicts_on(mobility)));
   report.add(WarningsHere());
   report.add("Cone indices", needs_table(mobility));
-  report.add("Mobility index", factors_table(mobility));
+  report.add("Mobility index", factors_table(mobility.index));
   report.add("Which source was taken", Items{sources_in_words(mobility)});
   report.data = [&mobility] { return mobility_json(mobility); };
   return report;

@@ -71,12 +71,11 @@ Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFi
   return {title, {plot}, Palette::named};
 }
 
-struct NamedValue {
-  const SoilParameter& parameter;
-  const PlateValue& value;
-};
+/// Values with what they are of.
+template <class Value>
+using ParameterValues = std::vector<std::pair<const SoilParameter&, const Value&>>;
 
-std::vector<NamedValue> plate_values(const MeasuredPlatesFit& fit) {
+ParameterValues<PlateValue> plate_values(const MeasuredPlatesFit& fit) {
   return {{soil_parameter("exponent"), fit.exponent},
           {soil_parameter("k_c"), fit.k_c},
           {soil_parameter("k_phi"), fit.k_phi}};
@@ -457,12 +456,7 @@ Sheet shear_sheet(std::span<const MeasuredShear> tests, const MeasuredShearFit& 
   return {title, {plot}, Palette::named};
 }
 
-struct NamedShearValue {
-  const SoilParameter& parameter;
-  const Estimate& value;
-};
-
-std::vector<NamedShearValue> shear_values(const MeasuredShearFit& fit) {
+ParameterValues<Estimate> shear_values(const MeasuredShearFit& fit) {
   return {{soil_parameter("cohesion"), fit.cohesion},
           {soil_parameter("friction_angle"), fit.friction_angle},
           {soil_parameter("shear_modulus"), fit.shear_modulus}};

@@ -153,63 +153,52 @@ Sheet driven_sheet(const DrivenAnswers& answers) {
   sheet.plots.push_back({"Speed [m/s]",
                          time,
                          {},
-                         {curve("travel", axles_named, [](const VehicleDriveSample& s) { return s.speed; }),
-                          curve("rim", axles_named + 1, [](const VehicleDriveSample& s) { return s.rim_speed; })}});
-  sheet.plots.push_back(
-      {"Slope [deg]", time, {}, {curve("", 0, [](const VehicleDriveSample& s) { return s.slope / degree; })}});
+                         {curve("travel", axles_named, &VehicleDriveSample::speed),
+                          curve("rim", axles_named + 1, &VehicleDriveSample::rim_speed)}});
+  sheet.plots.push_back({"Slope [deg]", time, {}, {curve("", 0, in_degrees(&VehicleDriveSample::slope))}});
   of_axles("Slip [%]", [](const DrivenAxle& a) { return a.slip ? 100 * *a.slip : not_a_number; });
-  of_axles("Load of a wheel [N]", [](const DrivenAxle& a) { return a.normal_load; });
+  of_axles("Load of a wheel [N]", &DrivenAxle::normal_load);
   of_axles("Sinkage [mm]", [](const DrivenAxle& a) { return 1000 * a.sinkage; });
-  of_axles("Torque of a wheel [N m]", [](const DrivenAxle& a) { return a.torque; });
+  of_axles("Torque of a wheel [N m]", &DrivenAxle::torque);
   return sheet;
 }
 
 const DriveColumns<VehicleDriveSample>& driven_columns() {
   using S = VehicleDriveSample;
-  static const DriveColumns<S> all = {
-      {"time_s", [](const S& s) { return s.time; }},
-      {"travelled_m", [](const S& s) { return s.travelled; }},
-      {"speed_m_s", [](const S& s) { return s.speed; }},
-      {"acceleration_m_s2", [](const S& s) { return s.acceleration; }},
-      {"rim_speed_m_s", [](const S& s) { return s.rim_speed; }},
-      {"slip", [](const S& s) { return s.slip.value_or(not_a_number); }},
-      {"torque_Nm", [](const S& s) { return s.torque; }},
-      {"pull_N", [](const S& s) { return s.pull; }},
-      {"slope_deg", [](const S& s) { return s.slope / degree; }},
-      {"motor_J", [](const S& s) { return s.energy.motor; }},
-      {"kinetic_J", [](const S& s) { return s.energy.kinetic; }},
-      {"height_J", [](const S& s) { return s.energy.height; }},
-      {"drawbar_J", [](const S& s) { return s.energy.drawbar; }},
-      {"compaction_J", [](const S& s) { return s.energy.compaction; }},
-      {"shear_J", [](const S& s) { return s.energy.shear; }},
-      {"added_forces_J", [](const S& s) { return s.energy.added; }},
-      {"carcass_J", [](const S& s) { return s.energy.carcass; }},
-      {"damping_J", [](const S& s) { return s.energy.damping; }},
-      {"unaccounted_J", [](const S& s) { return s.energy.unaccounted(); }},
-  };
+  using Energy = bekker_wong::EnergyLedger;
+  static const DriveColumns<S> all = {{"time_s", &S::time},
+                                      {"travelled_m", &S::travelled},
+                                      {"speed_m_s", &S::speed},
+                                      {"acceleration_m_s2", &S::acceleration},
+                                      {"rim_speed_m_s", &S::rim_speed},
+                                      {"slip", slip_or_none},
+                                      {"torque_Nm", &S::torque},
+                                      {"pull_N", &S::pull},
+                                      {"slope_deg", in_degrees(&S::slope)},
+                                      {"motor_J", energy(&Energy::motor)},
+                                      {"kinetic_J", energy(&Energy::kinetic)},
+                                      {"height_J", energy(&Energy::height)},
+                                      {"drawbar_J", energy(&Energy::drawbar)},
+                                      {"compaction_J", energy(&Energy::compaction)},
+                                      {"shear_J", energy(&Energy::shear)},
+                                      {"added_forces_J", energy(&Energy::added)},
+                                      {"carcass_J", energy(&Energy::carcass)},
+                                      {"damping_J", energy(&Energy::damping)},
+                                      {"unaccounted_J", energy(&Energy::unaccounted)}};
   return all;
 }
 
 const DriveColumns<DrivenAxle>& driven_axle_columns() {
   using A = DrivenAxle;
   static const DriveColumns<A> all = {
-      {"normal_load_N", [](const A& a) { return a.normal_load; }},
-      {"rim_speed_m_s", [](const A& a) { return a.rim_speed; }},
-      {"slip", [](const A& a) { return a.slip.value_or(not_a_number); }},
-      {"contact_slip", [](const A& a) { return a.contact_slip; }},
-      {"sinkage_m", [](const A& a) { return a.sinkage; }},
-      {"torque_Nm", [](const A& a) { return a.torque; }},
-      {"soil_force_N", [](const A& a) { return a.forward; }},
-  };
+      {"normal_load_N", &A::normal_load}, {"rim_speed_m_s", &A::rim_speed}, {"slip", slip_or_none},
+      {"contact_slip", &A::contact_slip}, {"sinkage_m", &A::sinkage},       {"torque_Nm", &A::torque},
+      {"soil_force_N", &A::forward}};
   return all;
 }
 
 Json moved_vehicle_json(const MovedVehicleDrive::Side& side) {
-  if (!side.end) return {{"value", side.value}, {"end", nullptr}, {"end_time", nullptr}, {"travelled", nullptr}};
-  return {{"value", side.value},
-          {"end", std::string(word_of(*side.end))},
-          {"end_time", side.end_time},
-          {"travelled", side.travelled}};
+  return moved_drive_json(side.value, side.end, side.end_time, side.travelled);
 }
 
 Json driven_json(const DrivenAnswers& answers) {
@@ -253,20 +242,12 @@ Json driven_json(const DrivenAnswers& answers) {
 }
 
 std::string driven_csv(const DrivenAnswers& answers) {
-  std::string text;
-  for (const DriveColumn<VehicleDriveSample>& column : driven_columns()) text += std::string(column.name) + ",";
-  text += "axle";
-  for (const DriveColumn<DrivenAxle>& column : driven_axle_columns()) text += ",wheel_" + std::string(column.name);
-  text += "\n";
+  std::string text = names_csv(driven_columns()) + ",axle," + names_csv(driven_axle_columns(), "wheel_") + "\n";
   if (!answers.record) return text;
   for (const VehicleDriveSample& s : answers.record->samples)
-    for (std::size_t i = 0; i < s.axles.size(); ++i) {
-      for (const DriveColumn<VehicleDriveSample>& column : driven_columns()) text += csv_number(column.get(s)) + ",";
-      text += csv_cell(axle_called(answers, i));
-      for (const DriveColumn<DrivenAxle>& column : driven_axle_columns())
-        text += "," + csv_number(column.get(s.axles[i]));
-      text += "\n";
-    }
+    for (std::size_t i = 0; i < s.axles.size(); ++i)
+      text += sample_csv(driven_columns(), s) + "," + csv_cell(axle_called(answers, i)) + "," +
+              sample_csv(driven_axle_columns(), s.axles[i]) + "\n";
   return text;
 }
 

@@ -381,16 +381,14 @@ struct DriveNumber {
 /// Those of the wheels, then those of the soils that begin on the way and are others than the ones before.
 std::vector<DriveNumber> drive_numbers(VehicleCase question, const std::vector<VehicleWheel>& wheels) {
   std::vector<DriveNumber> all;
-  const std::vector<Soil*> soils = soils_of_way(question.soil, question.drive.profile);
-  for (std::size_t k = 0; k < soils.size(); ++k) {
-    const bool returns = std::any_of(soils.begin(), soils.begin() + static_cast<std::ptrdiff_t>(k),
-                                     [&](const Soil* before) { return is_same_soil(*before, *soils[k]); });
-    if (!soils[k]->semi_empirical || returns) continue;
-    for (DoubtfulNumber& number : doubtful_numbers(*soils[k])) {
-      if (k > 0) number.title += " of " + soils[k]->name;
-      all.push_back({std::move(number), *soils[k]});
+  for (const Soil* soil : soils_once(question.soil, question.drive.profile)) {
+    if (!soil->semi_empirical) continue;
+    const bool own = soil == &question.soil;
+    for (DoubtfulNumber& number : doubtful_numbers(*soil)) {
+      if (!own) number.title += " of " + soil->name;
+      all.push_back({std::move(number), *soil});
     }
-    if (k == 0)
+    if (own)
       for (DoubtfulNumber& number : doubtful_carcasses(wheels)) all.push_back({std::move(number)});
   }
   return all;

@@ -31,8 +31,6 @@ void bind_grains(py::module_& module);
 void bind_run_parts(py::module_& module);
 void bind_soil_bin(py::module_& module);
 void bind_element_tests(py::module_& module);
-void bind_strength_tests(py::module_& module);
-void bind_plate_tests(py::module_& module);
 void bind_measured(py::module_& module);
 void bind_loop(py::module_& module);
 void bind_comparison(py::module_& module);
@@ -133,5 +131,16 @@ py::array view(const std::vector<double>& numbers, py::ssize_t columns, py::hand
 /// A dictionary of columns, in the order given.
 using Columns = std::vector<std::pair<const char*, py::array>>;
 py::dict dict_of(const Columns& columns);
+
+/// The getter of a dictionary of arrays, a number of each row under its name; they look into the rows.
+template <class T, class Row>
+auto columns_of(std::vector<Row> T::*rows,
+                std::vector<std::pair<const char*, double std::type_identity_t<Row>::*>> members) {
+  return [rows, members = std::move(members)](const py::object& self) {
+    py::dict out;
+    for (const auto& [name, member] : members) out[name] = column(self.cast<const T&>().*rows, member, self);
+    return out;
+  };
+}
 
 }  // namespace soilbin::python

@@ -108,9 +108,7 @@ void bind_comparison(py::module_& module) {
         return unlocked([&] { return compare_case(question, effects, runs, measured); });
       },
       py::arg("case"), py::arg("effects") = std::vector<EffectName>{}, py::arg("runs") = std::vector<RecordedRun>{},
-      py::arg("measured") = nullptr,
-      "Sides of a study: its analytic models and the base model with each of `effects`; runs of grains, of a record; a "
-      "campaign of the same wheel. Raises InputError where wheels or conditions don't meet.");
+      py::arg("measured") = nullptr, "soilbin.compare.compare_case tells the arguments.");
 }
 
 }  // namespace soilbin::python

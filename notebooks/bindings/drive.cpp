@@ -101,9 +101,7 @@ void bind_drive(py::module_& module) {
         });
       },
       py::arg("scenario"), py::arg("drive"), py::arg("samples") = 400, py::arg("progress") = py::none(),
-      "Drives the wheel from rest; effects are those of the drive. samples: intervals of time over the whole duration. "
-      "progress: called with (share done, stage). Raises InputError for an effect that a drive can't take, NoSolution "
-      "where the soil can't hold the wheel at its start.");
+      "soilbin.bekker_wong.drive_wheel tells the arguments.");
 }
 
 }  // namespace soilbin::python

@@ -191,6 +191,13 @@ void described(py::class_<T>& to, const std::vector<std::string>& more = {}) {
   });
 }
 
+/// A class that is its description and nothing else.
+template <class T>
+void bind_described(py::module_& module, const char* name, const char* doc) {
+  py::class_<T> bound(module, name, doc);
+  described(bound);
+}
+
 /// An enum with the words that files use.
 template <class E>
 void bind_words(py::module_& module, const char* name, const char* doc) {

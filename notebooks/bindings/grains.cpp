@@ -74,26 +74,19 @@ void bind_states(py::module_& module) {
   using dem::EnergyBalance;
   using dem::GrainNow;
   py::class_<GrainNow>(module, "GrainNow", "Motion of a grain at a whole step.")
-      .def_property_readonly(
-          "position", [](const GrainNow& g) { return array_of(g.position); }, "shape (3,), [m]")
-      .def_property_readonly(
-          "velocity", [](const GrainNow& g) { return array_of(g.velocity); }, "shape (3,), [m/s]")
-      .def_property_readonly(
-          "spin", [](const GrainNow& g) { return array_of(g.spin); }, "shape (3,), [rad/s]")
+      .def_property_readonly("position", array_in(&GrainNow::position), "shape (3,), [m]")
+      .def_property_readonly("velocity", array_in(&GrainNow::velocity), "shape (3,), [m/s]")
+      .def_property_readonly("spin", array_in(&GrainNow::spin), "shape (3,), [rad/s]")
       .def_readonly("radius", &GrainNow::radius, "[m]");
   py::class_<Contact>(module, "Contact", "A contact as it is now.")
       .def_readonly("first", &Contact::first, "id of a grain")
       .def_readonly("second", &Contact::second, "id of a grain, or -1 - index of a body")
       .def_readonly("overlap", &Contact::overlap, "[m]")
       .def_readonly("pressing", &Contact::pressing, "F_N [N]")
-      .def_property_readonly(
-          "point", [](const Contact& c) { return array_of(c.point); }, "shape (3,), [m]")
-      .def_property_readonly(
-          "normal", [](const Contact& c) { return array_of(c.normal); }, "shape (3,), toward `first`")
-      .def_property_readonly(
-          "force", [](const Contact& c) { return array_of(c.force); }, "shape (3,), on `first` [N]")
-      .def_property_readonly(
-          "couple", [](const Contact& c) { return array_of(c.couple); }, "shape (3,), on `first` [N m]");
+      .def_property_readonly("point", array_in(&Contact::point), "shape (3,), [m]")
+      .def_property_readonly("normal", array_in(&Contact::normal), "shape (3,), toward `first`")
+      .def_property_readonly("force", array_in(&Contact::force), "shape (3,), on `first` [N]")
+      .def_property_readonly("couple", array_in(&Contact::couple), "shape (3,), on `first` [N m]");
   py::class_<EnergyBalance>(module, "EnergyBalance", "Where the energy is [J].")
       .def_readonly("kinetic", &EnergyBalance::kinetic)
       .def_readonly("potential", &EnergyBalance::potential)

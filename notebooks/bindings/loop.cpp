@@ -145,10 +145,7 @@ void bind_loop(py::module_& module) {
         return unlocked([&] { return compare::run_loop(campaign, options); });
       },
       py::arg("campaign"), py::arg("folds") = 5, py::arg("seed") = 1, py::arg("validate") = true,
-      py::arg("threads") = 1, py::arg("progress") = py::none(),
-      "Residual, cause, effect added, error before and after. validate: the whole procedure redone in each fold, for "
-      "honest errors; without it they are absent. threads change the time, never the answer. Raises InputError for a "
-      "campaign that can't be used; one too small to say anything is a verdict.");
+      py::arg("threads") = 1, py::arg("progress") = py::none(), "soilbin.compare.run_loop tells the arguments.");
 }
 
 }  // namespace soilbin::python

@@ -126,8 +126,6 @@ PYBIND11_MODULE(_soilbin, module) {
   bind_recorded(module);
   bind_soil_bin(module);
   bind_element_tests(module);
-  bind_strength_tests(module);
-  bind_plate_tests(module);
   bind_loop(module);
   bind_comparison(module);
   bind_calibration(module);

@@ -20,14 +20,6 @@ namespace {
 
 using compare::Answer;
 
-py::dict patch_of(const py::object& self) {
-  const auto& rows = self.cast<const TractionResult&>().patch;
-  return dict_of({{"theta", column(rows, &StressSample::theta, self)},
-                  {"normal", column(rows, &StressSample::normal, self)},
-                  {"shear", column(rows, &StressSample::shear, self)},
-                  {"lateral_shear", column(rows, &StressSample::lateral_shear, self)}});
-}
-
 py::dict budget_of(const TractionResult& result) {
   py::dict out;
   for (const Contribution& part : result.budget) out[py::str(part.name)] = part.force;
@@ -58,7 +50,11 @@ void bind_result(py::module_& module) {
           },
           "force [N]: the drawbar pull less the sum of its parts; bound [N]: the largest that is no sign of a fault, "
           "NaN where it isn't known")
-      .def_property_readonly("patch", &patch_of,
+      .def_property_readonly("patch",
+                             columns_of(&R::patch, {{"theta", &StressSample::theta},
+                                                    {"normal", &StressSample::normal},
+                                                    {"shear", &StressSample::shear},
+                                                    {"lateral_shear", &StressSample::lateral_shear}}),
                              "stresses under the wheel, from exit to entry: arrays of one shape (nodes,): theta [rad], "
                              "normal, shear, lateral_shear [Pa]; views of the result, not copies")
       .def_readonly("without_error_of", &R::without_error_of,

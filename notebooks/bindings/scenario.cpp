@@ -26,17 +26,17 @@ std::vector<EffectChoice> effects_of(const std::vector<EffectName>& named) {
   return effects;
 }
 
-namespace {
-
-Tire tire_of(const std::variant<Tire, std::string>& named) {
+Tire tire_of(const TireName& named) {
   if (const auto* tire = std::get_if<Tire>(&named)) return *tire;
   return find_tire(std::get<std::string>(named), cases_library());
 }
 
-Soil soil_of(const std::variant<Soil, std::string>& named) {
+Soil soil_of(const SoilName& named) {
   if (const auto* soil = std::get_if<Soil>(&named)) return *soil;
   return find_soil(std::get<std::string>(named), cases_library());
 }
+
+namespace {
 
 void bind_estimate(py::module_& module) {
   py::class_<Estimate> estimate(module, "Estimate",
@@ -60,47 +60,35 @@ void bind_tire_and_soil(py::module_& module) {
   bind_words<LugPattern>(module, "LugPattern", "How the lugs run across the tread.");
   bind_words<Construction>(module, "Construction",
                            "How the plies of a tire run; the model cone_index alone asks for it.");
-  py::class_<Lugs> lugs(module, "Lugs", "Lugs of a tire or grousers of a rover wheel.");
-  described(lugs);
-  py::class_<TireDeflection> deflection(module, "TireDeflection",
-                                        "One row of a tire maker's load-deflection table, on firm flat ground.");
-  described(deflection);
-  py::class_<DeflectionTable> table(module, "DeflectionTable", "A tire maker's load-deflection table.");
-  described(table);
-  py::class_<Tire> tire(module, "Tire",
-                        "A wheel as the soil meets it. Radius and width are those of the tread base, without lugs.");
-  described(tire);
-  py::class_<SemiEmpiricalSoil> semi_empirical(module, "SemiEmpiricalSoil",
-                                               "Values of the Bekker / Wong-Reece model, each an Estimate. Pressure "
-                                               "under a plate of smaller width b at depth z: p = (k_c/b + k_phi) z^n.");
-  described(semi_empirical);
-  py::class_<ContactPair> pair(module, "ContactPair", "Contact of two materials in the discrete element model.");
-  described(pair);
+  bind_described<Lugs>(module, "Lugs", "Lugs of a tire or grousers of a rover wheel.");
+  bind_described<TireDeflection>(module, "TireDeflection",
+                                 "One row of a tire maker's load-deflection table, on firm flat ground.");
+  bind_described<DeflectionTable>(module, "DeflectionTable", "A tire maker's load-deflection table.");
+  bind_described<Tire>(module, "Tire",
+                       "A wheel as the soil meets it. Radius and width are those of the tread base, without lugs.");
+  bind_described<SemiEmpiricalSoil>(module, "SemiEmpiricalSoil",
+                                    "Values of the Bekker / Wong-Reece model, each an Estimate. Pressure "
+                                    "under a plate of smaller width b at depth z: p = (k_c/b + k_phi) z^n.");
+  bind_described<ContactPair>(module, "ContactPair", "Contact of two materials in the discrete element model.");
   bind_words<RollingResistance>(module, "RollingResistance", "How grains resist rolling (docs/theory/dem-laws.md).");
   bind_words<TwistingResistance>(module, "TwistingResistance", "How grains resist twisting (docs/theory/dem-laws.md).");
   bind_words<GrainCohesion>(module, "GrainCohesion", "How grains pull each other together (docs/theory/dem-laws.md).");
   bind_words<GrainShape>(module, "GrainShape", "What a grain is made of: a sphere, or several joined for good.");
-  py::class_<GrainFraction> fraction(module, "GrainFraction",
-                                     "Grains of one size among others, by their share of the mass.");
-  described(fraction);
-  py::class_<GranularSoil> granular(
-      module, "GranularSoil", "A soil as grains: radii uniform between two bounds, or fractions of one size each.");
-  described(granular);
-  py::class_<ResistiveForceSoil> resistive_force(module, "ResistiveForceSoil",
-                                                 "A soil as resistive force theory knows it (model rft).");
-  described(resistive_force);
-  py::class_<Soil> soil(module, "Soil", "A soil, by what each model needs of it.");
-  described(soil);
-  py::class_<Bin> bin(module, "Bin", "Inner measures of the soil bin; only some effects ask for them.");
-  described(bin);
+  bind_described<GrainFraction>(module, "GrainFraction",
+                                "Grains of one size among others, by their share of the mass.");
+  bind_described<GranularSoil>(module, "GranularSoil",
+                               "A soil as grains: radii uniform between two bounds, or fractions of one size each.");
+  bind_described<ResistiveForceSoil>(module, "ResistiveForceSoil",
+                                     "A soil as resistive force theory knows it (model rft).");
+  bind_described<Soil>(module, "Soil", "A soil, by what each model needs of it.");
+  bind_described<Bin>(module, "Bin", "Inner measures of the soil bin; only some effects ask for them.");
 }
 
 void bind_condition(py::module_& module) {
   bind_words<SlipBy>(module, "SlipBy", "The speed from which slip is computed where the wheel is yawed.");
   bind_words<ForceFrame>(module, "ForceFrame", "Axes in which drawbar pull and lateral force are given.");
-  py::class_<OperatingCondition> at(module, "OperatingCondition",
-                                    "What the wheel is asked to do. Signs: docs/reference/conventions.md.");
-  described(at);
+  bind_described<OperatingCondition>(module, "OperatingCondition",
+                                     "What the wheel is asked to do. Signs: docs/reference/conventions.md.");
 }
 
 void bind_effects(py::module_& module) {
@@ -143,27 +131,22 @@ void bind_effects(py::module_& module) {
 }
 
 void bind_drive_words(py::module_& module) {
-  py::class_<Controller> controller(module, "Controller",
-                                    "What turns the wheel: a motor that holds a rim speed or one that gives a torque. "
-                                    "Exactly one of the two is given.");
-  described(controller);
-  py::class_<Waypoint> waypoint(module, "Waypoint",
-                                "A place along the way. Angles and drawbar load go linearly from one to the next; a "
-                                "soil holds from its place on.");
-  described(waypoint);
+  bind_described<Controller>(module, "Controller",
+                             "What turns the wheel: a motor that holds a rim speed or one that gives a torque. "
+                             "Exactly one of the two is given.");
+  bind_described<Waypoint>(module, "Waypoint",
+                           "A place along the way. Angles and drawbar load go linearly from one to the next; a "
+                           "soil holds from its place on.");
   py::class_<Drive> drive(module, "Drive",
                           "A wheel with mass and inertia, driven from rest (docs/theory/driven-wheel.md).");
-  drive.def_property(
-      "effects", [](const Drive& d) { return d.effects; },
-      [](Drive& d, const std::vector<EffectName>& effects) { d.effects = effects_of(effects); },
-      "ids or EffectChoice; assign a new list to change them");
+  drive.def_property("effects", &effects_in<Drive>, &set_effects<Drive>, effects_meaning);
   described(drive, {"effects"});
 }
 
 void bind_cases(py::module_& module) {
   py::class_<Scenario>(module, "Scenario", "Everything but the operating condition.")
-      .def(py::init([](const std::variant<Tire, std::string>& tire, const std::variant<Soil, std::string>& soil,
-                       const std::optional<Bin>& bin, const std::vector<EffectName>& effects) {
+      .def(py::init([](const TireName& tire, const SoilName& soil, const std::optional<Bin>& bin,
+                       const std::vector<EffectName>& effects) {
              return Scenario{tire_of(tire), soil_of(soil), bin, effects_of(effects)};
            }),
            py::arg("tire"), py::arg("soil"), py::arg("bin") = std::nullopt,
@@ -173,16 +156,12 @@ void bind_cases(py::module_& module) {
       .def_readwrite("tire", &Scenario::tire)
       .def_readwrite("soil", &Scenario::soil)
       .def_readwrite("bin", &Scenario::bin)
-      .def_property(
-          "effects", [](const Scenario& s) { return s.effects; },
-          [](Scenario& s, const std::vector<EffectName>& effects) { s.effects = effects_of(effects); },
-          "ids or EffectChoice; assign a new list to change them")
+      .def_property("effects", &effects_in<Scenario>, &set_effects<Scenario>, effects_meaning)
       .def(
           "with_effects",
-          [](const Scenario& s, const std::vector<EffectName>& effects) {
-            Scenario out = s;
-            out.effects = effects_of(effects);
-            return out;
+          [](Scenario s, const std::vector<EffectName>& effects) {
+            set_effects(s, effects);
+            return s;
           },
           py::arg("effects"), "A copy with these effects in place of its own.")
       .def("__copy__", [](const Scenario& s) { return s; })

@@ -19,6 +19,12 @@ inline py::array_t<double> array_of(const dem::Vec3& a) {
   return out;
 }
 
+/// The getter of a vector that is a member.
+template <class T>
+auto array_in(dem::Vec3 T::*member) {
+  return [member](const T& self) { return array_of(self.*member); };
+}
+
 /// A vector of each row as an array of three columns that looks into the rows.
 template <class Row>
 py::array vectors(const std::vector<Row>& rows, dem::Vec3 Row::*member, py::handle owner) {

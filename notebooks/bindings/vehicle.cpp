@@ -34,83 +34,68 @@ std::vector<compare::VehicleWheel> wheels_with_tires(const VehicleCase& vehicle)
   return wheels_of(vehicle);
 }
 
-bekker_wong::BekkerWong wheel_model() { return bekker_wong::BekkerWong({.errors = false, .patch = false}); }
+/// What `ask` answers of the wheels, with their tires as declared; and what is doubtful in it.
+Document answered(const VehicleCase& question, const compare::TireLeftOut& left_out, const auto& ask) {
+  return unlocked([&]() -> Document {
+    std::vector<compare::VehicleWheel> wheels = wheels_with_tires(question);
+    Doubts notes = declare_tires(wheels, left_out);
+    const auto answers = ask(wheels, bekker_wong::BekkerWong({.errors = false, .patch = false}));
+    return {compare::json_text(report_on(answers).data()), compare::in_words(doubts_about(answers, std::move(notes)))};
+  });
+}
 
 Document vehicle_on_soil(const VehicleCase& question, int map_samples, bool rigid, bool no_lugs,
                          const py::object& progress) {
   Watch watch(progress);
-  return unlocked([&]() -> Document {
-    std::vector<compare::VehicleWheel> wheels = wheels_with_tires(question);
-    Doubts notes = declare_tires(wheels, {.pressure = rigid, .lugs = no_lugs});
-    const bekker_wong::BekkerWong model = wheel_model();
+  return answered(question, {.pressure = rigid, .lugs = no_lugs}, [&](const auto& wheels, const auto& model) {
     compare::VehicleAnswers answers = compare::answers_of(question, wheels, model);
     if (map_samples > 0)
       answers.map = compare::go_map(question, wheels, model, {.samples = map_samples, .progress = watch.of_steps()});
-    return {compare::json_text(report_on(answers).data()), compare::in_words(doubts_about(answers, std::move(notes)))};
+    return answers;
   });
 }
 
 Document turned_vehicle(const VehicleCase& question, std::optional<double> radius, std::optional<double> steer,
                         bool rigid, bool no_lugs) {
   if (radius && steer) throw InputError("give radius or steer, not both");
-  return unlocked([&]() -> Document {
-    std::vector<compare::VehicleWheel> wheels = wheels_with_tires(question);
-    Doubts notes = declare_tires(wheels, {.pressure = rigid, .lugs = no_lugs});
-    const compare::TurnAnswers answers = compare::turn_of(question, wheels, wheel_model(), {radius, steer});
-    return {compare::json_text(report_on(answers).data()), compare::in_words(doubts_about(answers, std::move(notes)))};
+  return answered(question, {.pressure = rigid, .lugs = no_lugs}, [&](const auto& wheels, const auto& model) {
+    return compare::turn_of(question, wheels, model, {radius, steer});
   });
 }
 
 Document beside_measured(const VehicleCase& question, const std::string& file, bool rigid, bool no_lugs) {
-  return unlocked([&]() -> Document {
-    std::vector<compare::VehicleWheel> wheels = wheels_with_tires(question);
-    Doubts notes = declare_tires(wheels, {.pressure = rigid, .lugs = no_lugs});
-    const compare::MeasuredAnswers answers = compare::beside_measured(
-        question, wheels, wheel_model(), compare::read_measured_vehicle(read_source_text(file, largest_csv)));
-    return {compare::json_text(report_on(answers).data()), compare::in_words(doubts_about(answers, std::move(notes)))};
+  return answered(question, {.pressure = rigid, .lugs = no_lugs}, [&](const auto& wheels, const auto& model) {
+    return compare::beside_measured(question, wheels, model,
+                                    compare::read_measured_vehicle(read_source_text(file, largest_csv)));
   });
 }
 
 Document driven(const VehicleCase& question, int samples, bool rigid, bool no_lugs, const py::object& progress) {
   if (samples < 1) throw InputError("samples: 1 or more");
   Watch watch(progress);
-  return unlocked([&]() -> Document {
-    std::vector<compare::VehicleWheel> wheels = wheels_with_tires(question);
-    Doubts notes = declare_tires(wheels, {.pressure = rigid, .lugs = no_lugs});
-    const compare::DrivenAnswers answers = compare::driven_answers(
-        question, wheels, wheel_model(), samples, [&watch](double time, double duration) { watch(time / duration); });
-    return {compare::json_text(report_on(answers).data()), compare::in_words(doubts_about(answers, std::move(notes)))};
+  return answered(question, {.pressure = rigid, .lugs = no_lugs}, [&](const auto& wheels, const auto& model) {
+    return compare::driven_answers(question, wheels, model, samples,
+                                   [&watch](double time, double duration) { watch(time / duration); });
   });
 }
 
 void bind_parts(py::module_& module) {
   bind_words<compare::DriveLine>(module, "DriveLine", "How the engine's rotation reaches the driven wheels.");
   bind_words<compare::Differential>(module, "Differential", "Whether two shafts that are driven together turn unlike.");
-  py::class_<compare::VehiclePoint> point(module, "VehiclePoint",
-                                          "A point of the vehicle: x forward, y to the left, z up from the ground.");
-  described(point);
-  py::class_<TorquePoint> torque_point(module, "TorquePoint", "A point of a motor's torque curve.");
-  described(torque_point);
-  py::class_<GearedMotor> motor(module, "GearedMotor", "A motor's largest torque against its speed, through its gear.");
-  described(motor);
+  bind_described<compare::VehiclePoint>(module, "VehiclePoint",
+                                        "A point of the vehicle: x forward, y to the left, z up from the ground.");
+  bind_described<TorquePoint>(module, "TorquePoint", "A point of a motor's torque curve.");
+  bind_described<GearedMotor>(module, "GearedMotor", "A motor's largest torque against its speed, through its gear.");
   py::class_<VehicleAxle> axle(module, "VehicleAxle", "Two wheels beside each other, or one without a track.");
   axle.def_property(
       "tire", [](const VehicleAxle& a) { return a.tire; },
-      [](VehicleAxle& a, const std::variant<Tire, std::string>& tire) {
-        const auto* name = std::get_if<std::string>(&tire);
-        a.tire = name != nullptr ? find_tire(*name, cases_library()) : std::get<Tire>(tire);
-      },
+      [](VehicleAxle& a, const TireName& tire) { a.tire = tire_of(tire); },
       "a Tire, or its name in the library; assign another one to change it");
   described(axle, {"tire"});
-  py::class_<compare::VehicleHitch> hitch(module, "VehicleHitch", "Where what is pulled is hooked on.");
-  described(hitch);
-  py::class_<compare::VehicleCondition> condition(module, "VehicleCondition",
-                                                  "Where the vehicle is and what it is to do.");
-  described(condition);
-  py::class_<compare::VehicleStop> stop(module, "VehicleStop", "A stop on the way, and the start from it.");
-  described(stop);
-  py::class_<compare::VehicleDrive> drive(module, "VehicleDrive", "How the vehicle is driven in time, from rest.");
-  described(drive);
+  bind_described<compare::VehicleHitch>(module, "VehicleHitch", "Where what is pulled is hooked on.");
+  bind_described<compare::VehicleCondition>(module, "VehicleCondition", "Where the vehicle is and what it is to do.");
+  bind_described<compare::VehicleStop>(module, "VehicleStop", "A stop on the way, and the start from it.");
+  bind_described<compare::VehicleDrive>(module, "VehicleDrive", "How the vehicle is driven in time, from rest.");
 }
 
 void bind_case(py::module_& module) {
@@ -118,15 +103,9 @@ void bind_case(py::module_& module) {
   vehicle.def_readwrite("axles", &VehicleCase::axles, "VehicleAxle each; assign a new list to change them");
   vehicle.def_property(
       "soil", [](const VehicleCase& v) { return v.soil; },
-      [](VehicleCase& v, const std::variant<Soil, std::string>& soil) {
-        const auto* name = std::get_if<std::string>(&soil);
-        v.soil = name != nullptr ? find_soil(*name, cases_library()) : std::get<Soil>(soil);
-      },
+      [](VehicleCase& v, const SoilName& soil) { v.soil = soil_of(soil); },
       "a Soil, or its name in the library; assign another one to change it");
-  vehicle.def_property(
-      "effects", [](const VehicleCase& v) { return v.effects; },
-      [](VehicleCase& v, const std::vector<EffectName>& effects) { v.effects = effects_of(effects); },
-      "ids or EffectChoice; assign a new list to change them");
+  vehicle.def_property("effects", &effects_in<VehicleCase>, &set_effects<VehicleCase>, effects_meaning);
   vehicle.def_readwrite("drive", &VehicleCase::drive, "how drive_vehicle drives it");
   described(vehicle, {"axles", "soil", "effects", "drive"});
 }

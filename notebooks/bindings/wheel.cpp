@@ -13,6 +13,7 @@
 namespace soilbin::python {
 namespace {
 
+using bekker_wong::ContactAngles;
 using bekker_wong::ContactPatch;
 using bekker_wong::RolledWheel;
 using bekker_wong::RollingWheel;
@@ -48,27 +49,22 @@ py::dict nodes_of(const py::object& self) {
 }
 
 void bind_rolled(py::module_& module) {
+  const auto angle = [](auto member) { return [member](const RolledWheel& w) { return w.patch.angles.*member; }; };
+  const auto force = [](auto member) { return [member](const RolledWheel& w) { return w.forces.*member; }; };
   py::class_<RolledWheel>(module, "RolledWheel", "A wheel at one sinkage: contact and forces, in the wheel's axes.")
       .def_readonly("at", &RolledWheel::at)
       .def_readonly("sinkage", &RolledWheel::sinkage, "z [m]")
-      .def_property_readonly(
-          "entry_angle", [](const RolledWheel& w) { return w.patch.angles.entry; }, "theta_1 [rad]")
-      .def_property_readonly(
-          "max_stress_angle", [](const RolledWheel& w) { return w.patch.angles.max_stress; }, "theta_m [rad]")
-      .def_property_readonly(
-          "exit_angle", [](const RolledWheel& w) { return w.patch.angles.exit; }, "theta_2 [rad]")
+      .def_property_readonly("entry_angle", angle(&ContactAngles::entry), "theta_1 [rad]")
+      .def_property_readonly("max_stress_angle", angle(&ContactAngles::max_stress), "theta_m [rad]")
+      .def_property_readonly("exit_angle", angle(&ContactAngles::exit), "theta_2 [rad]")
       .def_property_readonly("nodes", &nodes_of,
                              "arrays of one shape (nodes,), the nodes of the quadrature, views: theta [rad], arc "
                              "(weight times arc length) "
                              "[m], depth [m], sigma, strength, tau_x, tau_y [Pa], j_x, j_y [m]")
-      .def_property_readonly(
-          "thrust", [](const RolledWheel& w) { return w.forces.thrust; }, "[N]")
-      .def_property_readonly(
-          "compaction", [](const RolledWheel& w) { return w.forces.compaction; }, "compaction resistance, negative [N]")
-      .def_property_readonly(
-          "vertical", [](const RolledWheel& w) { return w.forces.vertical; }, "load that the contact carries [N]")
-      .def_property_readonly(
-          "torque", [](const RolledWheel& w) { return w.forces.torque; }, "[N m]");
+      .def_property_readonly("thrust", force(&WheelForces::thrust), "[N]")
+      .def_property_readonly("compaction", force(&WheelForces::compaction), "compaction resistance, negative [N]")
+      .def_property_readonly("vertical", force(&WheelForces::vertical), "load that the contact carries [N]")
+      .def_property_readonly("torque", force(&WheelForces::torque), "[N m]");
   py::class_<RollingWheel>(module, "RollingWheel", "The wheel of Wong and Reece (1967) on its soil, with effects.")
       .def(py::init(&wheel_of), py::arg("scenario"), "Raises InputError where a value is missing or out of range.")
       .def("roll", &RollingWheel::roll, py::arg("at"), "The balanced wheel. Raises InputError, NoSolution.")
@@ -91,19 +87,16 @@ void bind_limits(py::module_& module) {
         return fmt::format("PullPeak(slip={:.4g}, drawbar_pull={} N)", p.slip, compare::number(p.drawbar_pull));
       });
   module.def("largest_pull", &compare::largest_pull, py::arg("scenario"), py::arg("at"),
-             "Largest drawbar pull over 0 <= slip <= 1; the slip of `at` is not read. Raises NoSolution where no slip "
-             "has a balance.");
+             "soilbin.bekker_wong.largest_pull tells the arguments.");
   module.def("slip_for_pull", &compare::slip_for_pull, py::arg("scenario"), py::arg("at"), py::arg("drawbar") = 0.0,
-             "Smallest slip above -0.5 at which the wheel pulls `drawbar` [N] on the slope of `at`, an Estimate; None "
-             "where it can't.");
+             "soilbin.bekker_wong.slip_for_pull tells the arguments.");
   module.def(
       "steepest_slope",
       [](const Scenario& scenario, const OperatingCondition& at, double drawbar) {
         return compare::steepest_slope(scenario, at, drawbar);
       },
       py::arg("scenario"), py::arg("at"), py::arg("drawbar") = 0.0,
-      "Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N], an Estimate; None beyond -60 .. 80 "
-      "deg.");
+      "soilbin.bekker_wong.steepest_slope tells the arguments.");
 }
 
 void bind_closed_forms(py::module_& module) {
