@@ -9,6 +9,7 @@
 #include "cli/batch_flags.hpp"
 #include "cli/commands.hpp"
 #include "cli/described_flags.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"

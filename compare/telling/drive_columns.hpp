@@ -10,7 +10,8 @@
 
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
-#include "scenario/drive.hpp"
+#include "scenario/drive_record.hpp"
+#include "scenario/estimate.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
