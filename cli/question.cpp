@@ -81,6 +81,15 @@ double implied_speed(const AskedCondition& one, const Tire& tire) {
       fmt::format("soil '{}' has no {}\n  hint: these have: {}", clipped(soil.name), lacks, listed(right)));
 }
 
+/// Some names of a shelf, one a kind, where the library has them; else all that it has.
+std::string some_of(Shelf shelf, std::initializer_list<const char*> one_a_kind, const Library& library) {
+  std::vector<std::string> some;
+  for (const char* name : one_a_kind)
+    if (library.find(shelf, name)) some.emplace_back(name);
+  if (some.empty()) return "there are " + listed(library.names(shelf));
+  return fmt::format("such as {}; soilbin list {} has them all", listed(some), folder_of(shelf));
+}
+
 /// A value without a deviation keeps the one that it had; an assumed share stays a share.
 void set_value(const SoilParameter& p, const std::string& text, SemiEmpiricalSoil& soil) {
   const auto [value, deviation] = value_and_deviation(text);
@@ -325,13 +334,15 @@ void Question::override_tire(Tire& tire, const Workplace& place) const {
 
 Case Question::from_flags(const Workplace& place) const {
   if (soil_.empty())
-    throw InputError("which soil? --soil NAME or a file\n  hint: there are " +
-                     listed(place.library.names(Shelf::soils)));
+    throw InputError(
+        "which soil? --soil NAME or a file\n  hint: " +
+        some_of(Shelf::soils, {"dry-sand", "sandy-loam", "clayey-soil", "snow", "lunar-regolith"}, place.library));
   if (tire_.empty() && !(wheel_.given("radius") && wheel_.given("width")))
     throw InputError(
-        "which wheel? --radius and --width (such as --radius 110mm --width 100mm), or --tire NAME\n"
-        "  hint: there are " +
-        listed(place.library.names(Shelf::tires)));
+        "which wheel? --radius and --width (such as --radius 110mm --width 100mm), or --tire NAME, or its size "
+        "(540/65R30)\n"
+        "  hint: " +
+        some_of(Shelf::tires, {"14.00R20", "18.4-38", "hmmwv", "passenger-205-55r16", "curiosity"}, place.library));
   for (const std::string& key : needed_)
     if (!condition_.given(key))
       throw InputError(
