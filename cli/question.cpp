@@ -158,9 +158,12 @@ void add_effect(std::vector<EffectChoice>& effects, const std::string& text, con
 std::vector<EffectChoice> effects_named(const std::vector<std::string>& texts, const EffectVocabulary& vocabulary,
                                         const Soil& soil) {
   std::vector<EffectChoice> effects;
-  const bool none = std::ranges::find(texts, "none") != texts.end();
-  if (none && texts.size() > 1) throw InputError("--effect none excludes all others: it switches every effect off");
-  if (none) return effects;
+  for (const auto& [word, does] : {std::pair{"none", "it switches every effect off"},
+                                   {"declared", "it leaves those that the tire itself declares"}}) {
+    if (std::ranges::find(texts, word) == texts.end()) continue;
+    if (texts.size() > 1) throw InputError(fmt::format("--effect {} excludes all others: {}", word, does));
+    return effects;
+  }
   for (const std::string& text : texts) add_effect(effects, text, vocabulary, soil);
   return effects;
 }
@@ -311,8 +314,9 @@ Question::Question(CLI::App& app, std::vector<std::string> needed, const std::ve
   soil_values_.add_to(app, "Values of the soil, in place of its own");
   condition_.add_to(app, without);
   errors_.add_to(app);
-  add_value(app, "--effect", effects_, "ID[:FORM][,PARAMETER=VALUE...]",
-            "switch an effect on; may be given again; none: the case's off")
+  add_value(
+      app, "--effect", effects_, "ID[:FORM][,PARAMETER=VALUE...]",
+      "switch an effect on; may be given again; none: all off; declared: the case's off, what the tire declares on")
       ->allow_extra_args(false)
       ->group("Model");
 }
