@@ -267,6 +267,8 @@ std::vector<std::string> vehicle_remarks(const VehicleAnswers& answers) {
   if (std::ranges::any_of(answers.wheels,
                           [](const VehicleWheel& wheel) { return bekker_wong::is_flexible(wheel.scenario.effects); }))
     said.emplace_back(carcass_without_loss);
+  if (const auto& [x, y, z] = answers.question.hitch.at; x == 0.0 && y == 0.0 && z == 0.0)
+    said.emplace_back("The pull acts on the ground, at x = 0 and y = 0: no hitch says otherwise.");
   const std::size_t axles = answers.question.axles.size();
   if (axles > 2)
     said.push_back(fmt::format("Loads of {} axles: a rigid frame on {}.", axles,
