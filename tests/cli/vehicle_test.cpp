@@ -100,6 +100,24 @@ drive:
     - {at: 4 m, longitudinal_incline: 35 deg}
 )";
 
+// By the error of its soil, then by what grains show under heavy tires: the verdict itself says that it is open.
+TEST(SlowVehicleCommand, SaysWhatIsNotDecidedInItsVerdict) {
+  const Outcome by_error = soilbin("vehicle truck --soil clayey-soil");
+  EXPECT_EQ(by_error.status, 1);
+  EXPECT_THAT(by_error.out,
+              AllOf(HasSubstr("\nNot decided: It climbs -0.1 ± 1.7 deg, and 0 deg are asked: --map gives"),
+                    HasSubstr("\nAs computed it does not travel: ")));
+  EXPECT_THAT(by_error.err, HasSubstr("soilbin: does not travel (not decided): "));
+  const Outcome level = soilbin("vehicle truck --soil dry-sand");
+  EXPECT_THAT(level.out, AllOf(HasSubstr("\nIt travels: "), testing::Not(HasSubstr("Not decided"))));
+  const double climbs =
+      soilbin("vehicle truck --soil dry-sand --json").json().at("steepest").at("up").at("slope").at("value");
+  const Outcome between = soilbin(fmt::format("vehicle truck --soil dry-sand --slope {}deg", 0.9 * climbs / degree));
+  EXPECT_THAT(between.out,
+              AllOf(HasSubstr("Not decided: "), HasSubstr("With what grains show under heavy tires on sand it climbs "),
+                    HasSubstr("\nAs computed it travels: ")));
+}
+
 TEST(VehicleCommand, StopsAtCtrlC) {
   const Scratch scratch;  // a map of minutes
   const Outcome r = soilbin("vehicle tractor --map '" + (scratch / "map.csv").string() + "' --samples 500",
