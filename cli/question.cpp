@@ -81,6 +81,15 @@ double implied_speed(const AskedCondition& one, const Tire& tire) {
       fmt::format("soil '{}' has no {}\n  hint: these have: {}", clipped(soil.name), lacks, listed(right)));
 }
 
+/// Some names of a shelf, one a kind, where the library has them; else all that it has.
+std::string some_of(Shelf shelf, std::initializer_list<const char*> one_a_kind, const Library& library) {
+  std::vector<std::string> some;
+  for (const char* name : one_a_kind)
+    if (library.find(shelf, name)) some.emplace_back(name);
+  if (some.empty()) return "there are " + listed(library.names(shelf));
+  return fmt::format("such as {}; soilbin list {} has them all", listed(some), folder_of(shelf));
+}
+
 /// A value without a deviation keeps the one that it had; an assumed share stays a share.
 void set_value(const SoilParameter& p, const std::string& text, SemiEmpiricalSoil& soil) {
   const auto [value, deviation] = value_and_deviation(text);
@@ -149,9 +158,12 @@ void add_effect(std::vector<EffectChoice>& effects, const std::string& text, con
 std::vector<EffectChoice> effects_named(const std::vector<std::string>& texts, const EffectVocabulary& vocabulary,
                                         const Soil& soil) {
   std::vector<EffectChoice> effects;
-  const bool none = std::ranges::find(texts, "none") != texts.end();
-  if (none && texts.size() > 1) throw InputError("--effect none excludes all others: it switches every effect off");
-  if (none) return effects;
+  for (const auto& [word, does] : {std::pair{"none", "it switches every effect off"},
+                                   {"declared", "it leaves those that the tire itself declares"}}) {
+    if (std::ranges::find(texts, word) == texts.end()) continue;
+    if (texts.size() > 1) throw InputError(fmt::format("--effect {} excludes all others: {}", word, does));
+    return effects;
+  }
   for (const std::string& text : texts) add_effect(effects, text, vocabulary, soil);
   return effects;
 }
@@ -302,8 +314,9 @@ Question::Question(CLI::App& app, std::vector<std::string> needed, const std::ve
   soil_values_.add_to(app, "Values of the soil, in place of its own");
   condition_.add_to(app, without);
   errors_.add_to(app);
-  add_repeatable(app, "--effect", effects_, "ID[:FORM][,PARAMETER=VALUE...]",
-                 "switch an effect on; may be given again; none: the case's off")
+  add_repeatable(
+      app, "--effect", effects_, "ID[:FORM][,PARAMETER=VALUE...]",
+      "switch an effect on; may be given again; none: all off; declared: the case's off, what the tire declares on")
       ->group("Model");
 }
 
@@ -324,13 +337,15 @@ void Question::override_tire(Tire& tire, const Workplace& place) const {
 
 Case Question::from_flags(const Workplace& place) const {
   if (soil_.empty())
-    throw InputError("which soil? --soil NAME or a file\n  hint: there are " +
-                     listed(place.library.names(Shelf::soils)));
+    throw InputError(
+        "which soil? --soil NAME or a file\n  hint: " +
+        some_of(Shelf::soils, {"dry-sand", "sandy-loam", "clayey-soil", "snow", "lunar-regolith"}, place.library));
   if (tire_.empty() && !(wheel_.given("radius") && wheel_.given("width")))
     throw InputError(
-        "which wheel? --radius and --width (such as --radius 110mm --width 100mm), or --tire NAME\n"
-        "  hint: there are " +
-        listed(place.library.names(Shelf::tires)));
+        "which wheel? --radius and --width (such as --radius 110mm --width 100mm), or --tire NAME, or its size "
+        "(540/65R30)\n"
+        "  hint: " +
+        some_of(Shelf::tires, {"14.00R20", "18.4-38", "hmmwv", "passenger-205-55r16", "curiosity"}, place.library));
   for (const std::string& key : needed_)
     if (!condition_.given(key))
       throw InputError(

@@ -24,7 +24,8 @@ namespace soilbin::cli {
 void add_effect(std::vector<EffectChoice>& effects, const std::string& text, const EffectVocabulary& vocabulary,
                 const Soil& soil);
 
-/// The effects that the texts of --effect name, as add_effect takes each; "none" alone: no effect. Throws InputError.
+/// The effects that the texts of --effect name, as add_effect takes each; "none" or "declared" alone: no effect. Throws
+/// InputError.
 std::vector<EffectChoice> effects_named(const std::vector<std::string>& texts, const EffectVocabulary& vocabulary,
                                         const Soil& soil);
 
@@ -166,7 +167,8 @@ class Question {
 
   /// Throws InputError that names the flag that is missing or wrong.
   Case ask(const Workplace& place) const;
-  /// Whether --effect was given, whether as '--effect none'.
+  /// Whether --effect was given; whether as '--effect none', which leaves out what the tire declares too, as
+  /// '--effect declared' does not.
   bool names_effects() const { return !effects_.empty(); }
   bool switches_effects_off() const { return std::ranges::find(effects_, "none") != effects_.end(); }
 

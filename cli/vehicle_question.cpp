@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cli/flag_values.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/source_text.hpp"
 
@@ -26,6 +27,13 @@ void drive_axles(const std::string& names, std::vector<compare::VehicleAxle>& ax
   }
 }
 
+void inflate(double pressure, std::vector<compare::VehicleAxle>& axles) {
+  for (compare::VehicleAxle& axle : axles) {
+    axle.tire.inflation_pressure = pressure;
+    axle.tire.sources["inflation_pressure"] = command_line_source;
+  }
+}
+
 }  // namespace
 
 VehicleQuestion::VehicleQuestion(CLI::App& app) {
@@ -35,6 +43,8 @@ VehicleQuestion::VehicleQuestion(CLI::App& app) {
   machine_.add_to(app, "Vehicle, in place of the file's");
   centre_of_gravity_.add_to(app, "Vehicle, in place of the file's", "centre-of-gravity-");
   add_value(app, "--driven", driven_, "AXLE,...", "the axles that are driven, by their names; the others roll freely")
+      ->group("Vehicle, in place of the file's");
+  add_value(app, "--inflation-pressure", pressure_, "kPa", "of all its tires")
       ->group("Vehicle, in place of the file's");
   add_value(app, "--soil", soil_, "NAME|FILE", "in place of the file's soil");
   soil_values_.add_to(app, "Values of the soil, in place of its own");
@@ -46,10 +56,13 @@ VehicleQuestion::VehicleQuestion(CLI::App& app) {
 }
 
 void VehicleQuestion::change(compare::VehicleCase& vehicle) const {
+  if (left_out_.pressure && !pressure_.empty())
+    throw InputError("--rigid: a rigid wheel has no inflation pressure\n  hint: leave one of the two out");
   machine_.apply(vehicle);
   centre_of_gravity_.apply(vehicle.centre_of_gravity);
   if (!driven_.empty()) drive_axles(driven_, vehicle.axles);
-  if (!machine_.any_given() && !centre_of_gravity_.any_given() && driven_.empty()) return;
+  if (!pressure_.empty()) inflate(read_flag("--inflation-pressure", pressure_, {"kPa", zero_or_more}), vehicle.axles);
+  if (!machine_.any_given() && !centre_of_gravity_.any_given() && driven_.empty() && pressure_.empty()) return;
   vehicle.name += ", changed";
   if (const std::string wrong = contradiction(vehicle); !wrong.empty())
     throw InputError(wrong + "\n  hint: these flags do not go with that; a file of your own says all of it");

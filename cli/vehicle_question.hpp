@@ -37,7 +37,7 @@ class VehicleQuestion {
  private:
   void change(compare::VehicleCase& vehicle) const;
 
-  std::string name_, soil_, driven_;
+  std::string name_, soil_, driven_, pressure_;
   std::vector<std::string> effects_;
   SoilFlags soil_values_;
   DescribedFlags<compare::VehicleCondition> condition_;

@@ -62,9 +62,10 @@ std::vector<ServedAnswer> answers_to(const Setup& setup, const std::string& quer
 std::string title_of(const Case& question) { return in_words(question.scenario.tire); }
 
 std::string question_in_words(const Case& question) {
-  const bool analytic = question.study.models.front().model == ModelKind::bekker_wong;
+  const ModelChoice& model = question.study.models.front();
+  const bool base = model.model == ModelKind::bekker_wong && model.effects.empty();
   return compare::asked_in_words(question) + ", " + compare::in_words(question.study.conditions.front()) +
-         (analytic ? "" : ", by " + model_of(question));
+         (base ? "" : ", " + compare::model_in_words(model.label));
 }
 
 /// What is said of a point without solution.
@@ -115,7 +116,9 @@ Reply case_reply(const Setup& setup, const std::string& query) {
   std::vector<Flag> flags = flags_of(query);
   const auto slips = take_slips(flags);
   for (const char* beside : {"beside-soil", "beside-tire", "beside-model"}) take(flags, beside);
-  return {200, "application/yaml", write_case(swept_over(setup.ask(flags).question, slips), setup.place().effects)};
+  Asked asked = setup.ask(flags);
+  asked.tire.apply(asked.question, asked.base_model);
+  return {200, "application/yaml", write_case(swept_over(std::move(asked.question), slips), setup.place().effects)};
 }
 
 Reply curves_reply(const Setup& setup, std::string query) {

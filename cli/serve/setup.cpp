@@ -105,7 +105,7 @@ Setup::Setup(const Workplace& place, std::string case_name, std::vector<Flag> fl
       (question.study.models.size() > 1 || model.model != ModelKind::bekker_wong)) {
     for (const EffectChoice& choice : model.effects)
       start_.emplace_back("effect", effect_word(choice, question.scenario.soil));
-    if (model.effects.empty()) start_.emplace_back("effect", "none");
+    if (model.effects.empty()) start_.emplace_back("effect", "declared");
   }
   if (is_told_in_kilonewtons(ask({}).question.study.conditions.front().load)) force_unit_ = "kN";
 }

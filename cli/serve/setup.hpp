@@ -30,8 +30,8 @@ std::string model_of(const Case& question);
 class Setup {
  public:
   /// Starts from a case (a name, a path, or "") and flags of `soilbin estimate`: at the first of its conditions whose
-  /// slip is nearest to 20 %, with the effects of its first model, on the analytic
-  /// one. Throws InputError as `soilbin estimate` does.
+  /// slip is nearest to 20 %, with the effects of its first model, on the analytic one, and with those that its tire
+  /// declares, as of any one model. Throws InputError as `soilbin estimate` does.
   /// `place` must outlive this.
   Setup(const Workplace& place, std::string case_name, std::vector<Flag> flags);
 

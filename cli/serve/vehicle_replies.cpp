@@ -156,10 +156,11 @@ Reply vehicle_reply(const VehicleSetup& setup, const std::string& query, const S
                     AnswersOf answers_to) {
   const AskedVehicle asked = setup.ask(flags_of(query));
   const compare::VehicleAnswers answers = answers_to(asked.question, asked.wheels, WantedModel(wanted));
-  const compare::Report report = compare::report_on(answers);
+  const compare::Doubts doubts = doubts_about(answers, asked.notes);
+  const compare::Report report = compare::report_on(answers, doubts);
   Json document = answers.in_full ? report.data() : Json::object();
   document["in_full"] = answers.in_full;
-  add_told(document, report, asked, doubts_about(answers, asked.notes));
+  add_told(document, report, asked, doubts);
   document["numbers"] = vehicle_numbers_json(asked.question, setup.force_unit());
   document["effects"] = effect_values_json(effects_of(asked.wheels));
   document["curves"] = sheet_json(pulls_sheet(report, answers), setup);

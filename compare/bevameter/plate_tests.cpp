@@ -51,9 +51,15 @@ std::size_t place_of_wanted(const std::string& name, const std::string& value, c
 }  // namespace
 
 std::optional<NamedUnit> name_and_unit(const std::string& column) {
-  const std::size_t bar = column.rfind('_');
-  if (bar == std::string::npos || bar + 1 == column.size()) return std::nullopt;
-  NamedUnit named{column.substr(0, bar), column.substr(bar + 1), {}};
+  const bool in_brackets = column.ends_with(']') || column.ends_with(')');
+  const std::size_t cut = in_brackets ? column.find_last_of("[(") : column.rfind('_');
+  if (cut == std::string::npos || cut + 1 == column.size()) return std::nullopt;
+  NamedUnit named{column.substr(0, cut), column.substr(cut + 1), {}};
+  if (in_brackets) {
+    named.unit.pop_back();
+    named.name.erase(named.name.find_last_not_of(" _") + 1);
+    for (char& c : named.name) c = c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
   try {
     named.parsed = parse_unit(named.unit);
   } catch (const InputError&) {
@@ -117,8 +123,9 @@ struct PlateColumn {
 };
 
 constexpr const char* columns_hint =
-    "columns: sinkage_m, pressure_kPa (or force_N), plate_diameter_m (or plate_radius_m, plate_width_m), in any unit, "
-    "and those without a unit that identify the tests, such as test";
+    "columns: sinkage_m or Sinkage [m], pressure_kPa (or force_N), plate_diameter_m (or plate_radius_m, "
+    "plate_width_m), in "
+    "any unit, and those without a unit that identify the tests, such as test";
 
 /// A name and, behind its last '_', a unit of the dimension that it must have; no value where it isn't one.
 std::optional<PlateColumn> measured_column(const std::string& name) {

@@ -20,12 +20,13 @@ namespace soilbin::compare {
 // Rows of a CSV with one row a reading, where labels tell one test from another: which rows are wanted, and whether a
 // column can be such a label.
 
-/// A column's name and, behind its last '_', a unit.
+/// A column's name and its unit, behind the last '_' or in brackets at the end.
 struct NamedUnit {
   std::string name, unit;
   Unit parsed;
 };
-/// "sinkage_mm" as "sinkage" in mm; none for a name that does not end in a unit.
+/// "sinkage_mm" and "Sinkage [mm]" as "sinkage" in mm, "Plate diameter (mm)" as "plate_diameter"; none for a name that
+/// does not end in a unit.
 std::optional<NamedUnit> name_and_unit(const std::string& column);
 
 /// The number of a cell in SI; 0 in an empty one: nothing was measured, and no reading counts there. Throws InputError.

@@ -28,7 +28,8 @@ enum class DoubtKind {
   exponent_changed_alone, wider_than_high, high_lugs, beyond_wheels, tips_easily, unusual_wheel_load,
   // an answer
   no_solution, standing_wheel, power_from_nothing, unusual_ground_pressure, slides_across, settles_too_deep,
-  deep_sinkage, bin_floor, short_contact, large_deflection, beyond_deflections, flattens, pull_without_slip,
+  deep_sinkage, bin_floor, short_contact, large_deflection, beyond_deflections, flattens, no_pressure_at_rest,
+  pull_without_slip,
   drives_without_slip, slips_little, slope_slides, heavy_and_lugged, heavy_and_smooth, heavy_climb, travel_not_decided,
   carried_beyond_grains,
   sinkage_in_rut, beyond_learned, errors_left_out, without_deviations,

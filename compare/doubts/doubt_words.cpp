@@ -81,6 +81,9 @@ constexpr DoubtSentence sentences[] = {
       "its edge is taken"),
     D(flattens, "the tire flattens{at} (inflation {:.4g} kPa and carcass {:.4g} kPa){:?: as a rigid wheel it pulls "
       "{:N}}{:?, with --effect tire_flexibility {:N}}{error:?, and carries no more there: {}}"),
+    D(no_pressure_at_rest, "rate_dependence:grahn has no pressure at rest, and under the flat of a flexible tire nothing "
+      "penetrates the soil: it stays soft there, and pull and sinkage jump where the tire begins to flatten; take "
+      "--effect rate_dependence:quasi_static, or --rigid"),
     D(pull_without_slip, "the wheel pulls {:.2g} of its load{at}: even there the model shears the soil by up to {:.3g} "
       "mm under a radius of {:.4g} mm, and K is {:.3g} mm. A wheel that pulls slips: take pulls at less than 5 % slip "
       "as upper bounds"),
@@ -109,12 +112,12 @@ constexpr DoubtSentence sentences[] = {
     D(errors_left_out, "the standard errors leave out the soil's {}"),
     D(without_deviations, "no value of the soil has a standard deviation, so ± is far too small; 'assumed_sd: 10 %' under "
       "semi_empirical takes a tenth of each"),
-    D(lugs_ignored, "lugs are ignored: add {1} (estimate, explain, limits and run do where they ask one model)"),
+    D(lugs_ignored, "lugs are ignored: add {1} (estimate, explain, limits, run and serve do where they ask one model)"),
     D(lug_count_ignored, "the number of lugs is ignored: add {1}"),
     D(lug_thickness_ignored, "the lugs' thickness is ignored: only grains have it, {1}"),
     D(lug_pattern_ignored, "the lugs' pattern is ignored: only grains have it, {1}"),
     D(lug_angle_ignored, "the lugs' angle is ignored: only grains have it, {1}"),
-    D(inflation_ignored, "the inflation pressure is ignored: add {1} (estimate, explain, limits and run do)"),
+    D(inflation_ignored, "the inflation pressure is ignored: add {1} (estimate, explain, limits, run and serve do)"),
     D(inflation_ignored_by_grains, "the inflation pressure is ignored: grains meet a rigid tire"),
     D(carcass_ignored, "the carcass pressure is ignored: add {1}"),
     D(carcass_ignored_by_grains, "the carcass pressure is ignored: grains meet a rigid tire"),

@@ -105,6 +105,21 @@ Doubts pull_without_slip(const Scenario& scenario, const Answer& answer) {
                 at}};
 }
 
+/// Grahn's power of the penetration speed under a tire that is flat, where nothing penetrates.
+Doubts no_pressure_at_rest(const Case& question) {
+  const auto jumps = [](const std::vector<EffectChoice>& effects) {
+    return bekker_wong::is_flexible(effects) && std::ranges::any_of(effects, [](const EffectChoice& effect) {
+             const bekker_wong::EffectForm& form = bekker_wong::find_form(effect);
+             return form.id == "rate_dependence" && form.form == "grahn";
+           });
+  };
+  const bool asked = std::ranges::any_of(question.study.models, jumps, [&](const ModelChoice& model) {
+    return seen_by(model, question.scenario).effects;
+  });
+  if (!asked && !(question.drive && jumps(question.drive->effects))) return {};
+  return {Doubt{DoubtKind::no_pressure_at_rest}};
+}
+
 /// A slope on which no soil like this would lie.
 Doubts slope_slides(const Scenario& scenario, const OperatingCondition& at) {
   const double slope = std::acos(std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline));
@@ -338,6 +353,7 @@ Doubts doubts_but_unused_inputs(const Case& question, const std::vector<ModelAns
   }
   append(all, doubts_of_speeds(question));
   if (asks(question.study, ModelKind::bekker_wong)) append(all, without_deviations(question));
+  append(all, no_pressure_at_rest(question));
   append(all, doubts_of_answers(scenario, study, open));
   if (open || asks(question.study, ModelKind::dem))
     append(all, grain_doubts(scenario, question.study.conditions, study));

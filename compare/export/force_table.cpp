@@ -329,6 +329,7 @@ const TableAxis& coarsest(const ForceTable& table) {
 }
 
 std::string csv_of(const ForceTable& table) {
+  constexpr int digits = 15;  // a simulator that differentiates the table must not see its rounding
   std::string csv;
   for (const TableAxis& axis : table.axes) csv += std::string(axis.view->column) + ",";
   for (const TableChannel& channel : table.channels)
@@ -337,9 +338,9 @@ std::string csv_of(const ForceTable& table) {
   for (std::size_t node = 0; node < table.nodes.answers.size(); ++node) {
     const Answer& answer = table.nodes.answers[node];
     for (const TableAxis& axis : table.axes)
-      csv += csv_number(axis.view->get(answer.at) * per_unit(std::string(axis.view->column_unit))) + ",";
+      csv += csv_number(axis.view->get(answer.at) * per_unit(std::string(axis.view->column_unit)), digits) + ",";
     for (const TableChannel& channel : table.channels)
-      csv += csv_number(channel.values[node]) + "," + csv_number(channel.std_errors[node]) + ",";
+      csv += csv_number(channel.values[node], digits) + "," + csv_number(channel.std_errors[node], digits) + ",";
     csv += csv_cell(answer.error) + "\n";
   }
   return csv;

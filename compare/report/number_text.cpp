@@ -26,7 +26,9 @@ std::string number(const Estimate& estimate, double per_unit) {
   return fmt::format("{:.{}f} ± {:.{}f}", value, places, error, places);
 }
 
-std::string csv_number(double value) { return std::isfinite(value) ? fmt::format("{:.15g}", value + 0.0) : ""; }
+std::string csv_number(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value + 0.0, digits) : "";
+}
 
 double per_unit(const std::string& unit) {
   const Unit parsed = parse_unit(unit);

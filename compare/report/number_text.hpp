@@ -16,9 +16,10 @@ std::string number(double value, int digits = 4);
 /// "4.18 ± 0.31": the error to two digits, the value to the error's place; the value alone for an error of 0.
 std::string number(const Estimate& estimate, double per_unit = 1.0);
 
-/// A number for a table that people read, to 15 digits: 15 for a slope of 15 deg, though its radians make it
-/// 14.999999999999998. "" for what is not a number.
-std::string csv_number(double value);
+/// A number for a table that people read, without zeros at its end: 15 for a slope of 15 deg, though its radians make
+/// it 14.999999999999998. Nine digits are more than any answer knows; JSON has all of them. "" for what is not a
+/// number.
+std::string csv_number(double value, int digits = 9);
 
 /// What a value in SI is multiplied by to be in a unit: 57.3 for "deg", 1 for "-". Throws as parse_unit.
 double per_unit(const std::string& unit);

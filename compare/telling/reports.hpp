@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/doubts/doubt.hpp"
 #include "compare/report/report.hpp"
 
 namespace soilbin {
@@ -108,7 +109,8 @@ Report report_on(const DriveSides& drive);
 Report report_on(const cone_index::Mobility& mobility, const std::string& soil);
 
 /// A vehicle on a soil: whether it travels, how steep, each wheel, power, pull against slip; soilbin-vehicle-answer/1.
-Report report_on(const VehicleAnswers& answers);
+/// `doubts`: doubts_about the answers; the verdict says where they leave it open.
+Report report_on(const VehicleAnswers& answers, const Doubts& doubts = {});
 Report report_on(const TurnAnswers& answers);
 /// A vehicle beside what was measured of it at slips of its drive line; soilbin-vehicle-measured/1.
 Report report_on(const MeasuredAnswers& answers);

@@ -14,6 +14,7 @@
 #include "compare/telling/reports.hpp"
 #include "compare/telling/vehicle_words.hpp"
 #include "compare/vehicle/vehicle_answers.hpp"
+#include "compare/vehicle/vehicle_doubts.hpp"
 #include "scenario/csv.hpp"
 #include "scenario/unit.hpp"
 
@@ -102,8 +103,22 @@ std::optional<std::string> rut_in_words(const VehicleAnswers& answers) {
                      number({v.wheels[*deepest].result.sinkage.value, told_error(error)}, 1e3));
 }
 
-std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
+/// "It climbs 12.3 ± 1.2 deg, and 12 deg are asked: --map gives the chance."
+std::string not_decided_in_words(const NotDecided& open, const VehicleAnswers& answers) {
+  const std::string asked = number(answers.question.condition.slope / degree) + " deg are asked";
+  std::string words;
+  if (open.steepest)
+    words = fmt::format("It climbs {} deg, and {}: --map gives the chance.", number(*open.steepest, 1 / degree), asked);
+  if (open.as_in_grains)
+    words += fmt::format(
+        "{}With what grains show under heavy tires on sand it climbs {:.3g} deg in place of {:.3g}, and {}.",
+        words.empty() ? "" : " ", *open.as_in_grains / degree, answers.up.angle->value / degree, asked);
+  return words;
+}
+
+std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers, const std::optional<NotDecided>& open) {
   std::vector<BackedSentence> said;
+  if (open) said.push_back({"Not decided", not_decided_in_words(*open, answers)});
   if (answers.steady) {
     const SteadyVehicle& v = *answers.steady;
     const auto [unit, prefix] = power_unit(v.power.into_wheels);
@@ -115,7 +130,9 @@ std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
                        number(*answers.question.power / unit, 3), prefix, number(*answers.power_speed, 3))});
     else if (!answers.holds_speed())
       said.push_back({capital(too_fast_in_words(answers)), capital(travel_limit_in_words(*answers.not_held)) + "."});
-    said.push_back({answers.holds_speed() ? "It travels" : "At that speed",
+    said.push_back({!answers.holds_speed() ? "At that speed"
+                    : open                 ? "As computed it travels"
+                                           : "It travels",
                     fmt::format("The drive line slips by {} %; the wheels take {} {}W, {} {}J/m.",
                                 number({v.slip, told_error(answers.errors.slip)}, 100),
                                 number({v.power.into_wheels, told_error(answers.errors.into_wheels)}, 1 / unit), prefix,
@@ -132,17 +149,22 @@ std::vector<BackedSentence> vehicle_verdicts(const VehicleAnswers& answers) {
       said.push_back({"Yaw moment",
                       fmt::format("{} N m are left to turn it; no steered axle balances them.", number(v.yaw_moment))});
   } else {
-    said.push_back({"It does not travel", failure_in_words(answers.wheels, *answers.failure) + "."});
+    said.push_back({open ? "As computed it does not travel" : "It does not travel",
+                    failure_in_words(answers.wheels, *answers.failure) + "."});
   }
   add_motor_verdicts(answers, said);
   if (!answers.in_full) return said;
-  said.push_back({"Steepest slopes", fmt::format("Up {}, down {}, across {}.", angle_of(answers.up),
-                                                 angle_of(answers.down), angle_of(answers.across))});
+  const bool chance_unknown = !answers.up.angle && !answers.up.on_all && !answers.map;
+  said.push_back({"Steepest slopes",
+                  fmt::format("Up {}, down {}, across {}.{}", angle_of(answers.up), angle_of(answers.down),
+                              angle_of(answers.across),
+                              chance_unknown ? " Where there is none there is no ±: --map gives the chance." : "")});
   return said;
 }
 
-std::vector<KeyFigure> key_figures_of(const VehicleAnswers& answers) {
+std::vector<KeyFigure> key_figures_of(const VehicleAnswers& answers, bool open) {
   std::vector<KeyFigure> figures;
+  if (open) figures.push_back({"Not decided", "whether it travels"});
   if (answers.steady) {
     const SteadyVehicle& v = *answers.steady;
     const auto [unit, prefix] = power_unit(v.power.into_wheels);
@@ -150,7 +172,7 @@ std::vector<KeyFigure> key_figures_of(const VehicleAnswers& answers) {
     figures.push_back(
         {number({v.power.into_wheels, told_error(answers.errors.into_wheels)}, 1 / unit) + " " + prefix + "W",
          "into the wheels"});
-  } else {
+  } else if (!open) {
     figures.push_back({"It does not travel", "in this condition"});
   }
   if (!answers.in_full) return figures;
@@ -267,6 +289,8 @@ std::vector<std::string> vehicle_remarks(const VehicleAnswers& answers) {
   if (std::ranges::any_of(answers.wheels,
                           [](const VehicleWheel& wheel) { return bekker_wong::is_flexible(wheel.scenario.effects); }))
     said.emplace_back(carcass_without_loss);
+  if (const auto& [x, y, z] = answers.question.hitch.at; x == 0.0 && y == 0.0 && z == 0.0)
+    said.emplace_back("The pull acts on the ground, at x = 0 and y = 0: no hitch says otherwise.");
   const std::size_t axles = answers.question.axles.size();
   if (axles > 2)
     said.push_back(fmt::format("Loads of {} axles: a rigid frame on {}.", axles,
@@ -497,13 +521,14 @@ std::string csv_of(const GoMap& map) {
   return text;
 }
 
-Report report_on(const VehicleAnswers& answers) {
+Report report_on(const VehicleAnswers& answers, const Doubts& doubts) {
   const VehicleCase& question = answers.question;
+  const std::optional<NotDecided> open = not_decided(answers, doubts);
   const std::string asked = fmt::format("{} ({:.6g} kg) on {}: {}", question.name, question.mass, question.soil.name,
                                         condition_in_words(question.condition));
   Report report{"Vehicle: " + question.name, asked, asked};
-  report.add(KeyFigures{key_figures_of(answers)}, Told::on_pages);
-  report.add(Sentences(vehicle_verdicts(answers)));
+  report.add(KeyFigures{key_figures_of(answers, open.has_value())}, Told::on_pages);
+  report.add(Sentences(vehicle_verdicts(answers, open)));
   report.add(WarningsHere());
   if (answers.in_full) report.add("How steep", limits_of_vehicle(answers));
   if (!answers.climbs.empty()) report.add("How fast", climbs_table(answers));
@@ -523,7 +548,9 @@ Report report_on(const VehicleAnswers& answers) {
   if (const auto remarks = vehicle_remarks(answers); !remarks.empty()) report.add(Sentences(remarks));
   report.sheet = drawn_once([&] { return vehicle_sheet(answers); });
   report.add("Against slip", Figure(report.sheet, "Band: one standard error of the pull."));
-  if (answers.failure) report.no_answer = "does not travel: " + failure_in_words(answers.wheels, *answers.failure);
+  if (answers.failure)
+    report.no_answer = fmt::format("does not travel{}: {}", open ? " (not decided)" : "",
+                                   failure_in_words(answers.wheels, *answers.failure));
   if (answers.steady && !answers.holds_speed())
     report.no_answer =
         too_fast_in_words(answers) + ": " +

@@ -223,7 +223,8 @@ void describe(auto& v, std::type_identity<VehicleCase>) {
   v.number("power", &V::power, Measure{"kW", above_zero}, Need::optional, "that reaches the wheels at most");
   v.group("motor", &V::motor, Need::optional,
           "that turns the driven wheels, but for the drive line 'motors': torque against speed");
-  v.group("hitch", &V::hitch, Need::optional, "where what is pulled is hooked on; absent: on the ground, at x = 0");
+  v.group("hitch", &V::hitch, Need::optional,
+          "where what is pulled is hooked on; absent: on the ground, at x = 0 and y = 0");
   v.group("condition", &V::condition, Need::optional, "slope, speed and pull");
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <utility>
+#include <variant>
 
 #include "bekker_wong/model.hpp"
 #include "compare/doubts/doubts.hpp"
@@ -143,6 +144,20 @@ Doubts doubts_about(const VehicleAnswers& answers, Doubts notes) {
            (doubt.kind == DoubtKind::condition_ignored && doubt.says[0] == Said("pass"));
   });
   return once_each(notes);
+}
+
+std::optional<NotDecided> not_decided(const VehicleAnswers& answers, const Doubts& told) {
+  if (answers.steady && !answers.holds_speed()) return {};  // whatever the soil
+  NotDecided open;
+  if (tell_of(told, DoubtKind::travel_not_decided)) open.steepest = answers.up.angle;
+  const auto heavy = std::ranges::find(told, DoubtKind::heavy_climb, &Doubt::kind);
+  const VehicleCondition& at = answers.question.condition;
+  if (heavy != told.end() && answers.up.angle && at.cross_slope == 0.0) {
+    const double other = std::get<double>(heavy->says[1]) * degree;
+    const auto [low, high] = std::minmax(other, answers.up.angle->value);
+    if (at.slope > low && at.slope <= high) open.as_in_grains = other;
+  }
+  return open.steepest || open.as_in_grains ? std::optional(open) : std::nullopt;
 }
 
 Doubts doubts_about(const TurnAnswers& answers, Doubts notes) {

@@ -1,6 +1,8 @@
 // What there is to doubt about a vehicle and its answer.
 #pragma once
 
+#include <optional>
+
 #include "compare/doubts/doubt.hpp"
 #include "compare/vehicle/vehicle_answers.hpp"
 #include "compare/vehicle/vehicle_measured.hpp"
@@ -15,6 +17,17 @@ Doubts doubts(const VehicleCase& vehicle);
 /// `notes` (declare_tires), then doubts about the vehicle, the soil, the tires, and the answers of each axle's first
 /// wheel that is on the ground; each once.
 Doubts doubts_about(const VehicleAnswers& answers, Doubts notes);
+
+/// What leaves open whether the vehicle travels on the slope that is asked.
+struct NotDecided {
+  std::optional<Estimate> steepest{};    ///< [rad], whose error reaches the slope
+  std::optional<double> as_in_grains{};  ///< [rad]: the steepest with what grains show under heavy tires
+                                         ///< (doubts_of_climb), where the slope lies between it and the answer's
+};
+
+/// From `told`, doubts_about the answers; nothing where the verdict stands.
+std::optional<NotDecided> not_decided(const VehicleAnswers& answers, const Doubts& told);
+
 /// Of a turn: as those of the steady vehicle.
 Doubts doubts_about(const TurnAnswers& answers, Doubts notes);
 /// Beside measured states: as those of the steady vehicle at the largest slip.

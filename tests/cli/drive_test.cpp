@@ -348,8 +348,8 @@ TEST(LimitsCommand, TheSlipOnASlopeIsTheSlipOfNoPullThere) {
   EXPECT_NEAR(there.json()["rows"].at(0)["drawbar_pull"].get<double>(), 0.0, 1e-3);
   EXPECT_NEAR(row["slopes"].back()["largest_pull"].get<double>(), 0.0, 1e-5);
   EXPECT_THAT(text_of(csv),
-              HasSubstr(fmt::format(  // tables hold 15 digits
-                  ",{:.15g},{:.15g},{:.15g},{:.15g},{:.15g},0.2,{:.15g},{:.15g},,\n", second["slip"].get<double>(),
+              HasSubstr(fmt::format(  // tables hold nine digits
+                  ",{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},0.2,{:.9g},{:.9g},,\n", second["slip"].get<double>(),
                   second["std_error"]["slip"].get<double>(), second["largest_pull"].get<double>(),
                   second["std_error"]["largest_pull"].get<double>(), second["slip_of_largest_pull"].get<double>(),
                   row["steepest_slope_within_max_slip"].get<double>() / degree,

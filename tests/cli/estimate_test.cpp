@@ -405,7 +405,11 @@ TEST(Estimate, BadInputNamesTheFlagAndTheNearestWord) {
       {"estimate --soil dry-sand --radius 110mm --width 100mm --load 80N --slip 1.2", "--slip"},
       {"estimate --soil dry-sand --radius 110mm --width 100mm --slip 0.2", "--load"},
       {"estimate --soil dry-sand --load 80N --slip 0.2", "--radius"},
-      {"estimate --radius 110mm --width 100mm --load 80N --slip 0.2", "which soil?"},
+      {"estimate --radius 110mm --width 100mm --load 80N --slip 0.2",
+       "which soil? --soil NAME or a file\n  hint: such as dry-sand, sandy-loam, clayey-soil, snow, lunar-regolith; "
+       "soilbin list soils has them all\n"},
+      {"estimate --soil dry-sand --load 80N --slip 0.2",
+       "hint: such as 14.00R20, 18.4-38, hmmwv, passenger-205-55r16, curiosity; soilbin list tires has them all\n"},
       {"estimate --soil dry-sand --tire rover-whel --load 80N --slip 0.2", "did you mean 'rover-wheel'?"},
       {"estimate --soil dry-sand --tire rover-wheel --load 80N --slip 0.2 --pass 1.5", "whole number"},
       {"estimate --soil dry-sand --tire rover-wheel --load 80N --slip 0.2 --slip-by travel", "travel_speed"},

@@ -19,7 +19,8 @@ TEST(VehicleCommand, TellsWhatTheRoverDoes) {
   const Outcome run = soilbin("vehicle " + rover);
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(HasSubstr("It travels: The drive line slips by"), HasSubstr("Steepest slopes: Up "),
-                             HasSubstr("front left"), HasSubstr("ground pressure"), HasSubstr("Add multipass")));
+                             HasSubstr("front left"), HasSubstr("ground pressure"), HasSubstr("Add multipass"),
+                             HasSubstr("The pull acts on the ground, at x = 0 and y = 0")));
 }
 
 TEST(VehicleCommand, SaysWhyAndWhereItDoesNotTravel) {
@@ -99,6 +100,24 @@ drive:
     - {at: 1 m}
     - {at: 4 m, longitudinal_incline: 35 deg}
 )";
+
+// By the error of its soil, then by what grains show under heavy tires: the verdict itself says that it is open.
+TEST(SlowVehicleCommand, SaysWhatIsNotDecidedInItsVerdict) {
+  const Outcome by_error = soilbin("vehicle truck --soil clayey-soil");
+  EXPECT_EQ(by_error.status, 1);
+  EXPECT_THAT(by_error.out,
+              AllOf(HasSubstr("\nNot decided: It climbs -0.1 ± 1.7 deg, and 0 deg are asked: --map gives"),
+                    HasSubstr("\nAs computed it does not travel: ")));
+  EXPECT_THAT(by_error.err, HasSubstr("soilbin: does not travel (not decided): "));
+  const Outcome level = soilbin("vehicle truck --soil dry-sand");
+  EXPECT_THAT(level.out, AllOf(HasSubstr("\nIt travels: "), testing::Not(HasSubstr("Not decided"))));
+  const double climbs =
+      soilbin("vehicle truck --soil dry-sand --json").json().at("steepest").at("up").at("slope").at("value");
+  const Outcome between = soilbin(fmt::format("vehicle truck --soil dry-sand --slope {}deg", 0.9 * climbs / degree));
+  EXPECT_THAT(between.out,
+              AllOf(HasSubstr("Not decided: "), HasSubstr("With what grains show under heavy tires on sand it climbs "),
+                    HasSubstr("\nAs computed it travels: ")));
+}
 
 TEST(VehicleCommand, StopsAtCtrlC) {
   const Scratch scratch;  // a map of minutes
@@ -260,8 +279,8 @@ centre_of_gravity: {x: 0.5 m, z: 0.8 m}
 drive_line: sides
 power: 50 W
 axles:
-  - {name: front, x: 1.2 m, track: 1.3 m, steered: yes, tire: {name: rover 0.5 m, radius: 250 mm, width: 200 mm}}
-  - {name: rear, x: 0 m, track: 1.3 m, tire: {name: rover 0.5 m, radius: 250 mm, width: 200 mm}}
+  - {name: front, x: 1.2 m, track: 1.3 m, steered: yes, tire: {name: rover 0.5 m, radius: 250 mm, width: 200 mm, inflation_pressure: 20 kPa}}
+  - {name: rear, x: 0 m, track: 1.3 m, tire: {name: rover 0.5 m, radius: 250 mm, width: 200 mm, inflation_pressure: 20 kPa}}
 soil: grc-1
 effects: [{id: slip_sinkage, form: lyasko, parameters: {a: 0.5}}]
 condition: {speed: 0.1 m/s, slope: 2 deg}
@@ -270,7 +289,7 @@ condition: {speed: 0.1 m/s, slope: 2 deg}
   const auto as_file = soilbin("vehicle '" + file + "' --json").json();
   const auto as_flags = soilbin(
                             "vehicle rover --mass 90kg --centre-of-gravity-x 0.5m --centre-of-gravity-z 0.8m "
-                            "--drive-line sides --power 50W --slope 2deg "
+                            "--drive-line sides --power 50W --slope 2deg --inflation-pressure 20kPa "
                             "--effect slip_sinkage:lyasko,a=0.5 --json")
                             .json();
   for (const char* key : {"condition", "steady", "steepest", "pulls", "speed_at_largest_power"})
@@ -296,6 +315,8 @@ TEST(VehicleCommand, RefusesFlagsThatContradictItsFile) {
               HasSubstr("no axle is called 'frnt', did you mean 'front'?\n  hint: there are front, rear"));
   EXPECT_THAT(told("--drive-line lockd"), HasSubstr("did you mean 'locked'?"));
   EXPECT_THAT(told("--mass 0kg"), HasSubstr("--mass"));
+  EXPECT_THAT(told("--inflation-pressure 20kPa --rigid"),
+              HasSubstr("--rigid: a rigid wheel has no inflation pressure"));
   EXPECT_THAT(told("--effect none --effect multipass"), HasSubstr("--effect none excludes all others"));
 }
 

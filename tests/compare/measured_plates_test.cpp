@@ -203,6 +203,17 @@ TEST(MeasuredPlates, ColumnsTellTheirUnits) {
   EXPECT_NEAR(fit_measured_plates(plates).k_phi.estimate.value, made_k_phi, 1e-3 * made_k_phi);
 }
 
+TEST(MeasuredPlates, AColumnsUnitMayStandInBrackets) {
+  const std::string rows = rows_of_a_plate(0.1, "1") + rows_of_a_plate(0.2, "2");
+  const auto moduli = [&](const std::string& header) {
+    const MeasuredPlatesFit fit = fit_measured_plates(read_csv_of_plates(header + rows));
+    return std::pair(fit.k_c.estimate.value, fit.k_phi.estimate.value);
+  };
+  const auto [k_c, k_phi] = moduli(plate_columns);
+  EXPECT_NEAR(k_phi, made_k_phi, 1e-3 * made_k_phi);
+  EXPECT_EQ(moduli("Test no.,Plate diameter [m],Sinkage (m),Pressure [kPa]\n"), std::pair(k_c, k_phi));
+}
+
 TEST(MeasuredPlates, BadFilesAreRefused) {
   EXPECT_THAT(
       refusal([] { read_csv_of_plates("test,sinkage_m,pressure_kPa\na,0.1,1\n"); }),

@@ -116,6 +116,7 @@ TEST(Sweep, TablesOfNumbersAreRoundedToWhatTheyMean) {
   EXPECT_EQ(csv_number(15 * degree / degree), "15");
   EXPECT_EQ(csv_number(0.1 + 0.2), "0.3");
   EXPECT_EQ(csv_number(8890.0), "8890");
+  EXPECT_EQ(csv_number(1.0 / 3.0), "0.333333333");
   OperatingCondition at = condition(80, 0.2);
   at.longitudinal_incline = 15 * degree, at.transverse_incline = -7 * degree, at.yaw = 35 * degree;
   Case question;

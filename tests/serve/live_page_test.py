@@ -53,12 +53,13 @@ class ThePage(LivePage):
         self.assertNotEqual(self.pull(), before)
         self.assertGreater(len(self.js(f"{box}.closest('.effect').querySelector('small').textContent")), 5)
         self.js(f"{box}.click()")
-        self.assertTrue(self.browser.until("document.getElementById('command').textContent.includes('--effect=none')"))
+        self.assertTrue(self.browser.until("document.getElementById('command').textContent.includes('--effect=declared')"))
         self.assertEqual(self.pull(), before)
 
     def test_4_what_the_tire_declares_is_on_and_goes_off(self):
         box = "[...document.querySelectorAll('.effect label')].find(l => l.textContent === 'lug thrust').firstChild"
-        self.assertFalse(self.js(f"{box}.checked"), "the case says none")
+        self.assertTrue(self.js(f"{box}.checked"), "of the tire, though no model of the case has it")
+        self.assertEqual(self.js("soilbin.live.effects.firstChild.textContent"), "Effects on: lug thrust")
         self.js("soilbin.live.go('effect=slip_sinkage')")
         self.assertTrue(self.browser.until(f"!soilbin.live.asking && {box}.checked"))
         self.assertIn("As the tire declares", self.js(f"{box}.closest('.effect').querySelector('small').textContent"))
@@ -71,6 +72,19 @@ class ThePage(LivePage):
         self.js(f"{box}.click()")
         self.assertTrue(self.browser.until(f"!soilbin.live.asking && {box}.checked"))
         self.assertEqual(self.pull(), lugged)
+        self.reset()
+
+    def test_4_a_tire_of_the_library_brings_what_it_declares(self):
+        self.choose("Tire", "14.00R20")
+        self.move("load", 30)
+        summary = "soilbin.live.effects.firstChild.textContent"
+        self.assertTrue(self.browser.until(f"{summary} === 'Effects on: tire flexibility, lug thrust'"))
+        self.assertGreater(self.js("soilbin.live.answer.wheels[0].deflection"), 0)
+        box = "[...document.querySelectorAll('.effect label')].find(l => l.textContent === 'tire flexibility').firstChild"
+        self.js(f"{box}.click()")
+        self.assertTrue(self.browser.until(f"!soilbin.live.asking && {summary} === 'Effects on: lug thrust'"))
+        self.assertIn("--rigid", self.command())
+        self.assertEqual(self.js("soilbin.live.answer.wheels[0].deflection"), 0)
         self.reset()
 
     def test_4_an_effects_parameter_moves_the_curves(self):
@@ -86,7 +100,7 @@ class ThePage(LivePage):
         self.js("soilbin.live.go('effect=slip_sinkage:reece')")
         self.assertTrue(self.browser.until(f"{control.replace(chr(39) + 'a', chr(39) + 'h')}.box.value === '10'"))
         self.js("document.getElementById('reset').click()")
-        self.assertTrue(self.browser.until("!soilbin.live.asking && !document.querySelector('.parameters .number')"))
+        self.assertTrue(self.browser.until(f"!soilbin.live.asking && {control[:control.rindex('.get')]}.size === 0"))
 
     def test_4_a_parameter_of_each_unit_is_spelled_as_the_server_reads_it(self):
         refused = self.js("""(async () => {

@@ -59,6 +59,34 @@ class TheServer(unittest.TestCase):
             for key in ("format", "tire", "soil", "rows"):
                 self.assertEqual(served[key], told[key], key)
 
+    # Asked anew, not by the command that the server shows: of a tire with lugs and a pressure both act without being named.
+    def test_asks_a_tire_as_estimate_does(self):
+        at = ["--soil", "sandy-loam", "--load", "30kN", "--slip", "20%", "--speed", "1m/s"]
+        query = {"soil": "sandy-loam", "load": "30kN", "slip": "20%", "speed": "1m/s"}
+        with Server("--tire", "18.4-38", *at) as of_the_start:
+            for server in (self.server, of_the_start):
+                for tire, left_out, acting in (("14.00R20", [], {"lug_thrust", "tire_flexibility"}),
+                                               ("14.00R20", ["no-lugs"], {"tire_flexibility"}),
+                                               ("14.00R20", ["rigid"], {"lug_thrust"}),
+                                               ("16.00R20", ["no-lugs", "rigid"], set()), ("hmmwv", [], set())):
+                    status, served = server.estimate(tire=tire, **query, **{flag: "true" for flag in left_out})
+                    self.assertEqual(status, 200, served)
+                    told = json.loads(soilbin("estimate", "--tire", tire, *at, *(f"--{flag}" for flag in left_out),
+                                              "--json").stdout)
+                    self.assertEqual(served["rows"], told["rows"], (tire, left_out))
+                    self.assertEqual({effect["id"] for effect in served["effects"]}, acting, (tire, left_out))
+            told = json.loads(soilbin("estimate", "--tire", "18.4-38", *at, "--json").stdout)
+            self.assertEqual(of_the_start.estimate()[1]["rows"], told["rows"])
+
+    # Of two models side by side the page asks one, and that one has what its tire declares.
+    def test_a_study_starts_with_what_its_tire_declares(self):
+        row = self.server.estimate()[1]["rows"][0]
+        self.assertEqual(row["label"], "bekker_wong + lug_thrust")
+        told = json.loads(soilbin("estimate", "--tire", "paper-lugged", "--soil", "paper-sand", "--load", "4kN", "--slip",
+                                  "20%", "--speed", f"{row['speed']!r}m/s", "--json").stdout)
+        self.assertEqual(row, told["rows"][0])
+        self.assertEqual(self.server.estimate(effect="none")[1]["rows"][0]["label"], "bekker_wong")
+
     def test_says_which_standard_deviations_are_assumed(self):
         _, served = self.server.estimate(soil="dry-sand")
         self.assertIn("k_c, k_phi, c, phi (assumed: 10 %, no source)", served["errors_in_words"])
@@ -93,7 +121,7 @@ class TheServer(unittest.TestCase):
         _, served = self.server.estimate(load="4kN", slip="20%")
         reading = next(r for r in served["readings"] if r["name"] == "Steepest slope")
         self.assertEqual(reading["unit"], "deg")
-        limits = json.loads(soilbin("limits", "paper-straight", "--load", "4kN", "--json").stdout)["rows"][0]
+        limits = json.loads(soilbin("limits", "paper-straight", "--load", "4kN", "--effect", "declared", "--json").stdout)["rows"][0]
         self.assertAlmostEqual(float(reading["value"]), math.degrees(limits["steepest_slope"]), delta=0.05)
 
     def test_a_tire_that_gives_way_is_flat_in_the_drawing(self):
@@ -114,7 +142,7 @@ class TheServer(unittest.TestCase):
                 text = text.replace(was, now)
             mine.write_text(text)
             told = json.loads(soilbin("estimate", "paper-straight", "--load", "4kN", "--slip", "20%", "--soil", str(mine),
-                                      "--effect", "none", "--json").stdout)
+                                      "--effect", "declared", "--json").stdout)
         _, served = self.server.estimate(soil="dry-sand", exponent="1+-0.05", friction_angle="33+-2deg", k_phi="1200kN/m^(n+2)")
         self.assertEqual(served["rows"], told["rows"])
         self.assertEqual(served["soil"], "dry-sand, changed")
@@ -184,9 +212,9 @@ class TheServer(unittest.TestCase):
                 piles = sorted(y for a in areas for y in (a["base"][i], a["y"][i]))
                 self.assertGreaterEqual(piles[-1], max(0, y) - 1e-4)
 
-    # b r times the integral of sigma cos(theta) + tau sin(theta) is the load on level ground.
+    # b r times the integral of sigma cos(theta) + tau sin(theta) is the load on level ground, where lugs carry none of it.
     def test_the_stresses_of_the_drawing_carry_the_load(self):
-        wheel = self.server.estimate()[1]["wheels"][0]
+        wheel = self.server.estimate(effect="none")[1]["wheels"][0]
         carried, theta = 0.0, wheel["theta"]
         for k in range(len(theta) - 1):
             mean = lambda key, of: 0.5 * sum(wheel[key][i] * of(theta[i]) for i in (k, k + 1))
@@ -195,7 +223,10 @@ class TheServer(unittest.TestCase):
         self.assertAlmostEqual(wheel["sinkage"], wheel["radius"] * (1 - math.cos(wheel["entry"])), 9)
 
     def test_the_case_that_is_saved_runs_to_the_curves_that_are_saved(self):
-        query = "soil=dry-sand&friction-angle=" + quote("31+-1.5deg") + "&radius=400mm&effect=slip_sinkage"
+        for left_out in ("", "&no-lugs=true"):
+            self.saves_what_it_shows("soil=dry-sand&friction-angle=" + quote("31+-1.5deg") + "&radius=400mm&effect=slip_sinkage" + left_out)
+
+    def saves_what_it_shows(self, query):
         status, headers, case = self.server.ask(f"/case.yaml?{query}")
         self.assertEqual(status, 200, case)
         curves = self.server.ask(f"/curves.csv?{query}")[2]

@@ -8,6 +8,7 @@ soilbin.make = function (tag, set = {}, ...inside) {
   return element;
 };
 soilbin.part = id => document.getElementById(id);
+soilbin.spaced = id => id.replaceAll('_', ' ');
 // '80N', '0.2 1/kPa'.
 soilbin.quantity = (value, unit) => unit.startsWith('1') ? `${value} ${unit}` : value + unit;
 
@@ -147,7 +148,7 @@ soilbin.LivePage = class {
       note.textContent = [taken ? 'As the tire declares.' : '', word && form.equation || ''].filter(Boolean).join(' ');
       this.showParameters(effect, parameters, word ? form : {parameters: []});
     };
-    const name = effect.id.replaceAll('_', ' ') + (effect.of === 'measurement' ? ' (of the measurement)' : '');
+    const name = soilbin.spaced(effect.id) + (effect.of === 'measurement' ? ' (of the measurement)' : '');
     return make('div', {className: 'effect'}, make('label', {}, box, name), forms, note, parameters);
   }
 
@@ -173,9 +174,12 @@ soilbin.LivePage = class {
 
   startEffects() { return this.start.effects.filter(e => e.on).map(e => e.on); }
   effectWords() {
-    return this.state.has('effect') ? this.state.getAll('effect').filter(word => word !== 'none') : this.startEffects();
+    return this.state.has('effect') ? this.state.getAll('effect').filter(word => word !== 'none' && word !== 'declared')
+      : this.startEffects();
   }
   takesEffects() { return true; }
+  // What --effect is given where the start has effects and no word is left.
+  withoutEffects() { return 'none'; }
   // Whether a tire declares what an effect is about.
   declares(effect) { return this.taken.has(effect.id); }
   wordOf(effect) { return this.effectWords().find(word => word.split(/[:,]/)[0] === effect.id); }
@@ -184,8 +188,8 @@ soilbin.LivePage = class {
     for (const effect of this.start.effects) effect.show(this.wordOf(effect));
     for (const {key, effects} of this.start.numbers)
       if (effects) this.numbers.get(key).element.hidden = !effects.some(id => this.wordOf({id}));
-    const on = this.effectWords().length + this.taken.size;
-    this.effects.firstChild.textContent = on ? `Effects (${on} on)` : 'Effects';
+    const on = [...this.effectWords().map(word => word.split(/[:,]/)[0]), ...this.taken.keys()];
+    this.effects.firstChild.textContent = on.length ? `Effects on: ${on.map(soilbin.spaced).join(', ')}` : 'Effects: none';
   }
   showLists() { for (const [select, key, start] of this.lists) select.value = this.state.get(key) || start; }
 
@@ -205,7 +209,7 @@ soilbin.LivePage = class {
     if (word) words.push(word);
     this.state.delete('effect');
     if ([...words].sort().join() !== this.startEffects().sort().join())
-      for (const w of words.length ? words : ['none']) this.state.append('effect', w);
+      for (const w of words.length ? words : [this.withoutEffects()]) this.state.append('effect', w);
     this.showEffects();
     this.ask();
   }

@@ -19,14 +19,15 @@ soilbin.WheelPage = class extends soilbin.LivePage {
     return [
       this.list('Model', models, 'model', start.model, () => { this.state.delete('effect'); }),
       this.group('Condition', true, ...this.numbersOf('condition')),
+      this.effectsGroup(),
       this.group('Wheel', wide, this.preset('Tire', 'tire', start.tire_name, start.tires), ...this.numbersOf('tire')),
       this.group('Soil', wide, this.preset('Soil', 'soil', start.soil, start.soils), ...this.numbersOf('soil')),
       this.group('Beside it', wide, beside('A second soil', 'beside-soil', start.soils), beside('A second tire', 'beside-tire', start.tires),
                  this.list('A second model', [['', 'none'], ...models], 'beside-model', '')),
-      this.effectsGroup(),
       this.group('Curves', wide, this.list('Slip from', soilbin.slipRanges, 'slips', soilbin.slipRanges[0][0]))];
   }
 
+  withoutEffects() { return 'declared'; }
   takesEffects() { return (this.state.get('model') || this.start.model) === 'bekker_wong'; }
   declares(effect) { return Number(this.numbers.get(soilbin.declaredBy[effect.id]).box.value) > 0; }
 
