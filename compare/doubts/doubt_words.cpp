@@ -82,8 +82,8 @@ constexpr DoubtSentence sentences[] = {
     D(flattens, "the tire flattens{at} (inflation {:.4g} kPa and carcass {:.4g} kPa){:?: as a rigid wheel it pulls "
       "{:N}}{:?, with --effect tire_flexibility {:N}}{error:?, and carries no more there: {}}"),
     D(no_pressure_at_rest, "rate_dependence:grahn has no pressure at rest, and under the flat of a flexible tire nothing "
-      "penetrates the soil: it stays soft there, and pull and sinkage jump where the tire begins to flatten; take "
-      "--effect rate_dependence:quasi_static, or --rigid"),
+      "penetrates the soil: it stays soft there, and the pull jumps with load and inflation pressure (of a truck's tire by "
+      "a tenth of its load within 3 kPa); take --effect rate_dependence:quasi_static, or --rigid"),
     D(pull_without_slip, "the wheel pulls {:.2g} of its load{at}: even there the model shears the soil by up to {:.3g} "
       "mm under a radius of {:.4g} mm, and K is {:.3g} mm. A wheel that pulls slips: take pulls at less than 5 % slip "
       "as upper bounds"),

@@ -212,6 +212,7 @@ std::string study_csv(const std::vector<ModelAnswers>& study, const Remark& rema
 }
 
 std::string prediction_csv(const Prediction& prediction, const std::vector<std::string>& remarks) {
+  constexpr int digits = 15;  // of what was measured and is set against it: a residual may be small beside both
   const bool with_pressure = std::ranges::any_of(
       prediction.runs, [](const PredictedRun& run) { return run.measured.at.inflation_pressure.has_value(); });
   std::string text = std::string("run,setpoint,") + condition_columns(with_pressure);
@@ -225,10 +226,10 @@ std::string prediction_csv(const Prediction& prediction, const std::vector<std::
                         condition_cells(run.measured.at, with_pressure));
     for (const ChannelView& channel : channel_views) {
       const std::optional<double>& measured = run.measured.*channel.measured;
-      text += (measured ? csv_number(*measured) : "") + ',';
+      text += (measured ? csv_number(*measured, digits) : "") + ',';
       if (const auto& result = run.predicted.result) {
         const Estimate& predicted = (*result).*channel.predicted;
-        text += csv_number(predicted.value) + ',' + csv_number(predicted.std_error) + ',';
+        text += csv_number(predicted.value, digits) + ',' + csv_number(predicted.std_error, digits) + ',';
       } else {
         text += ",,";
       }
