@@ -104,6 +104,7 @@ std::vector<EffectForm> sensor_offset_forms() {
        .form = "slip",
        .equation = "v/(r w) = (1 + a) times the one that the slip tells",
        .source = "stated here: kinematics",
+       .meaning = "the slip is told by another rolling radius",
        .parameters = {{"a", "-", 0.02, -0.3, 0.3, "rolling radius by which the slip is told, over r, less 1"}},
        .measurement = true,
        .form_tolerance = 0.05,
