@@ -73,56 +73,47 @@ class LoadOffset final : public Effect {
 }  // namespace
 
 std::vector<EffectForm> sensor_offset_forms() {
+  const std::string id = "sensor_offset";
   std::vector<EffectForm> forms;
   for (const Channel& channel : measured_channels)
-    forms.push_back({.id = "sensor_offset",
+    forms.push_back({.id = id,
                      .form = std::string(channel.name),
                      .equation = std::string(channel.name) + " + a",
                      .source = "stated here",
                      .meaning = fmt::format("the zero of the {} is off", channel.title),
                      .parameters = {{"a", std::string(channel.unit), channel.usual, -channel.limit, channel.limit,
                                      "offset of the zero"}},
-                     .measurement = true,
-                     .form_tolerance = 0.05,
-                     .steady_only = of_an_instrument,
                      .make = [value = channel.value](const std::vector<double>& p) {
                        return std::make_unique<const Offset>(value, p[0]);
                      }});
   forms.push_back(
-      {.id = "sensor_offset",
+      {.id = id,
        .form = "load",
        .equation = "normal load (W + a) cos(alpha) cos(beta_t); F_DP - a sin(alpha), F_y - a cos(alpha) sin(beta_t)",
        .source = "stated here: statics",
        .meaning = "the zero of the load is off",
        .parameters = {{"a", "N", 5.0, -1e4, 1e4, "what the wheel carries beyond the load that is told"}},
-       .measurement = true,
-       .form_tolerance = 0.05,
-       .steady_only = of_an_instrument,
        .make = maker<LoadOffset>()});
   forms.push_back(
-      {.id = "sensor_offset",
+      {.id = id,
        .form = "slip",
        .equation = "v/(r w) = (1 + a) times the one that the slip tells",
        .source = "stated here: kinematics",
        .meaning = "the slip is told by another rolling radius",
        .parameters = {{"a", "-", 0.02, -0.3, 0.3, "rolling radius by which the slip is told, over r, less 1"}},
-       .measurement = true,
-       .form_tolerance = 0.05,
-       .steady_only = of_an_instrument,
        .make = maker<SlipZero>()});
   for (const Channel& channel : measured_channels)
-    forms.push_back({.id = "sensor_offset",
+    forms.push_back({.id = id,
                      .form = std::string(channel.name) + "_gain",
                      .equation = std::string(channel.name) + " times 1 + a",
                      .source = "stated here",
                      .meaning = fmt::format("the scale of the {} is off", channel.title),
                      .parameters = {{"a", "-", 0.03, -0.5, 0.5, "share by which the scale is off"}},
-                     .measurement = true,
-                     .form_tolerance = 0.05,
-                     .steady_only = of_an_instrument,
                      .make = [value = channel.value](const std::vector<double>& p) {
                        return std::make_unique<const Gain>(value, p[0]);
                      }});
+  for (EffectForm& form : forms)
+    form.measurement = true, form.form_tolerance = 0.05, form.steady_only = of_an_instrument;
   return forms;
 }
 

@@ -41,8 +41,7 @@ constexpr std::array<ShearLimits, 3> shear_limits = {{
 
 constexpr const char* shear_columns_hint =
     "columns: displacement_mm or Displacement [mm], shear_stress_kPa, normal_stress_kPa, in any unit, and those "
-    "without "
-    "a unit that identify the tests, such as test";
+    "without a unit that identify the tests, such as test";
 
 ShearColumn shear_column(const std::string& header) {
   const std::optional<NamedUnit> named = name_and_unit(header);

@@ -124,8 +124,7 @@ struct PlateColumn {
 
 constexpr const char* columns_hint =
     "columns: sinkage_m or Sinkage [m], pressure_kPa (or force_N), plate_diameter_m (or plate_radius_m, "
-    "plate_width_m), in "
-    "any unit, and those without a unit that identify the tests, such as test";
+    "plate_width_m), in any unit, and those without a unit that identify the tests, such as test";
 
 /// A name and, behind its last '_', a unit of the dimension that it must have; no value where it isn't one.
 std::optional<PlateColumn> measured_column(const std::string& name) {

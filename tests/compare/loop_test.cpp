@@ -270,23 +270,23 @@ TEST(SlowLoop, SaysUnknownWhereTheCatalogueHasNoName) {
   EXPECT_TRUE(said[1].starts_with("The unexplained part of the torque depends most on the slip")) << said[1];
 }
 
-// The pull as shown by a cell that reads too little the more it is pulled: the largest one as tanh(share)/share of
-// itself.
-void bend_force_cell(Campaign& campaign, double share) {
+// Asked of runs in which nothing is missing, the pull as shown by a cell that reads too little the more it is pulled:
+// the largest one as tanh(share)/share of itself.
+LoopAnswer loop_with_bent_force_cell(double share, std::uint64_t seed) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, seed);
   double most = 0.0;
   for (const compare::Run& run : campaign.runs) most = std::max(most, std::abs(*run.drawbar_pull));
   const double bent = most / share;
   for (compare::Run& run : campaign.runs) *run.drawbar_pull = bent * std::tanh(*run.drawbar_pull / bent);
+  return run_loop(campaign, quick());
 }
 
 // Read too little by a third at the most, a scale that is off mimics all but the bend: it may have the name, and
 // nothing of the soil may.
 TEST(SlowLoop, BlamesNoSoilForAForceCellThatIsBent) {
   for (const std::uint64_t seed : {31, 37}) {
-    Campaign campaign = sand_campaign();
-    measure(campaign, sweep(), {}, fine_noise, seed);
-    bend_force_cell(campaign, 1.3);
-    const LoopAnswer answer = run_loop(campaign, quick());
+    const LoopAnswer answer = loop_with_bent_force_cell(1.3, seed);
     if (answer.verdict() == Verdict::unknown_effect) continue;
     ASSERT_EQ(answer.verdict(), Verdict::effect_found) << reason_words(answer);
     ASSERT_EQ(answer.effects().size(), 1u);
@@ -298,10 +298,7 @@ TEST(SlowLoop, BlamesNoSoilForAForceCellThatIsBent) {
 // Read too little by three fifths at the most, the bend stays.
 TEST(SlowLoop, SaysUnknownWhereAnInstrumentIsBent) {
   for (const std::uint64_t seed : {31, 37}) {
-    Campaign campaign = sand_campaign();
-    measure(campaign, sweep(), {}, fine_noise, seed);
-    bend_force_cell(campaign, 2.5);
-    const LoopAnswer answer = run_loop(campaign, quick());
+    const LoopAnswer answer = loop_with_bent_force_cell(2.5, seed);
     EXPECT_EQ(answer.verdict(), Verdict::unknown_effect) << reason_words(answer);
     EXPECT_TRUE(answer.effects().empty());
   }

@@ -69,27 +69,31 @@ def positive(value, least=0.05):
     return np.maximum(value, least)
 
 
+def forms_of(*modules):
+    """Form classes that these modules hold, in their order; a class without a name is a base of others."""
+    items = [item for module in modules for item in vars(module).values()]
+    return [item for item in items if isinstance(item, type) and issubclass(item, Form) and item.NAME]
+
+
 def catalogue():
     """{id: [form classes]} for the ids of the catalogue."""
     from . import contact, shear, added, strength, rig
     found = {}
-    for module in (contact, shear, added, strength, rig):
-        for item in vars(module).values():
-            if isinstance(item, type) and issubclass(item, Form) and item.ID:
-                found.setdefault(item.ID, []).append(item)
+    for form in forms_of(contact, shear, added, strength, rig):
+        found.setdefault(form.ID, []).append(form)
     return found
 
 
 def instruments():
     """Form classes of instruments that are out of scale, which the sets of a whole catalogue leave out."""
     from . import scale
-    return [item for item in vars(scale).values() if isinstance(item, type) and issubclass(item, Form) and item.ID]
+    return forms_of(scale)
 
 
 def unknown():
     """Form classes of effects that the catalogue does not hold."""
     from . import outside
-    return [item for item in vars(outside).values() if isinstance(item, type) and issubclass(item, Form) and item.NAME]
+    return forms_of(outside)
 
 
 def build(record):
