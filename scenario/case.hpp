@@ -87,6 +87,10 @@ inline constexpr const char* case_format = "soilbin-case/1";
 inline constexpr const char* tire_format = "soilbin-tire/1";
 inline constexpr const char* soil_format = "soilbin-soil/1";
 
+/// The question of the analytic wheel alone, with the scenario's effects and what a fit says of its errors: seen_by
+/// gives the scenario back. Its model has its label; without conditions.
+Case question_of(Scenario scenario);
+
 /// Labels the models that have no label: "bekker_wong + slip_sinkage + exit_angle". An id that stands in several forms
 /// among the models is told with its form, "slip_sinkage:ding", so that no two forms look alike.
 void label_models(std::vector<ModelChoice>& models);

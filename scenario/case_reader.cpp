@@ -164,6 +164,16 @@ void label_models(std::vector<ModelChoice>& models) {
   }
 }
 
+Case question_of(Scenario scenario) {
+  Case question;
+  question.study.models = {{ModelKind::bekker_wong, std::move(scenario.effects), "", std::move(scenario.errors),
+                            std::exchange(scenario.misfit, {})}};
+  scenario.effects.clear(), scenario.errors.clear();
+  question.scenario = std::move(scenario);
+  label_models(question.study.models);
+  return question;
+}
+
 Case parse_case(const SourceText& source, const Library& library, const EffectVocabulary& effects) {
   const YamlNode document = parse_yaml(source);
   const Reading reading{&source, std::nullopt, nullptr, ""};

@@ -12,7 +12,8 @@
 //
 //   a soil by itself     values out of the usual, no strength, nothing carried     declared_doubts.cpp
 //   a wheel on a soil    proportions, a width for which the soil carries nothing   declared_doubts.cpp
-//   an answer            deep sinkage, odd pressure, more power out than in        doubts.cpp
+//   an answer            deep sinkage, odd pressure, more power out than in        answer_doubts.cpp
+//   a heavy tire         what grains show of one, beside the answer                heavy_doubts.cpp
 //   no influence         lugs, inflation, passes, ... that change no digit         unused_inputs.cpp
 //   a presumption        what an effect takes the wheel to have, and nobody said   doubts.cpp
 //   grains               odd values, too soft or coarse, a law that hangs on the   grain_doubts.cpp

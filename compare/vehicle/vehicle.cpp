@@ -209,11 +209,7 @@ std::vector<VehicleWheel> wheels_of(const VehicleCase& vehicle) {
 Doubts declare_tires(std::vector<VehicleWheel>& wheels, const TireLeftOut& left_out) {
   Doubts told;
   for (VehicleWheel& wheel : wheels) {
-    Case question;
-    question.scenario = wheel.scenario;
-    question.scenario.effects.clear();
-    question.study.models.emplace_back().effects = wheel.scenario.effects;
-    label_models(question.study.models);
+    Case question = question_of(wheel.scenario);
     question.study.conditions.push_back({.load = 1.0, .pass = wheel.pass()});
     Doubts doubts = as_declared(question, left_out);
     wheel.scenario.tire = question.scenario.tire;

@@ -203,17 +203,6 @@ void bind_explanation(py::module_& module) {
 
 }  // namespace
 
-Case question_of(const Scenario& scenario) {
-  Case question;
-  question.scenario = scenario;
-  question.scenario.effects.clear();
-  ModelChoice choice{ModelKind::bekker_wong, scenario.effects, ""};
-  choice.errors = scenario.errors;
-  question.study.models = {choice};
-  label_models(question.study.models);
-  return question;
-}
-
 void bind_results(py::module_& module) {
   bind_result(module);
   bind_models(module);

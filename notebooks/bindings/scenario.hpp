@@ -31,9 +31,6 @@ void set_effects(T& of, const std::vector<EffectName>& effects) {
   of.effects = effects_of(effects);
 }
 
-/// The analytic model's question about a scenario, without conditions.
-Case question_of(const Scenario& scenario);
-
 void bind_library(py::module_& module);
 
 }  // namespace soilbin::python
