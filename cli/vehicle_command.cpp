@@ -73,7 +73,8 @@ int vehicle(const VehicleOptions& options, const Session& session) {
     answers.map = compare::go_map(question, wheels, model,
                                   {.samples = static_cast<int>(options.samples), .progress = shown_progress()});
   const compare::Doubts doubts = compare::doubts_about(answers, std::move(notes));
-  Outputs outputs = publish(compare::report_on(answers, doubts), options.outputs, doubts, session);
+  Outputs outputs =
+      publish(compare::report_on(answers, not_decided(answers, doubts)), options.outputs, doubts, session);
   outputs.table_or_drawing(
       options.map, [&] { return compare::csv_of(*answers.map); }, [&] { return compare::svg_of(*answers.map); });
   return outputs.status(done);

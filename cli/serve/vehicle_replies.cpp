@@ -157,7 +157,7 @@ Reply vehicle_reply(const VehicleSetup& setup, const std::string& query, const S
   const AskedVehicle asked = setup.ask(flags_of(query));
   const compare::VehicleAnswers answers = answers_to(asked.question, asked.wheels, WantedModel(wanted));
   const compare::Doubts doubts = doubts_about(answers, asked.notes);
-  const compare::Report report = compare::report_on(answers, doubts);
+  const compare::Report report = compare::report_on(answers, not_decided(answers, doubts));
   Json document = answers.in_full ? report.data() : Json::object();
   document["in_full"] = answers.in_full;
   add_told(document, report, asked, doubts);

@@ -7,6 +7,7 @@
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -57,6 +58,7 @@ template <class Test>
 struct MeasuredBeside;
 struct MeasuredPlate;
 struct MeasuredPlatesFit;
+struct NotDecided;
 struct PlateGroups;
 struct MeasuredShear;
 struct MeasuredShearFit;
@@ -109,8 +111,9 @@ Report report_on(const DriveSides& drive);
 Report report_on(const cone_index::Mobility& mobility, const std::string& soil);
 
 /// A vehicle on a soil: whether it travels, how steep, each wheel, power, pull against slip; soilbin-vehicle-answer/1.
-/// `doubts`: doubts_about the answers; the verdict says where they leave it open.
-Report report_on(const VehicleAnswers& answers, const Doubts& doubts = {});
+/// `open`: not_decided of the answers; then the verdict begins with it. By itself: as if nothing left it open.
+Report report_on(const VehicleAnswers& answers, const std::optional<NotDecided>& open);
+Report report_on(const VehicleAnswers& answers);
 Report report_on(const TurnAnswers& answers);
 /// A vehicle beside what was measured of it at slips of its drive line; soilbin-vehicle-measured/1.
 Report report_on(const MeasuredAnswers& answers);

@@ -456,7 +456,7 @@ Json map_json(const GoMap& map) {
   return json;
 }
 
-Json vehicle_json(const VehicleAnswers& answers) {
+Json vehicle_json(const VehicleAnswers& answers, const std::optional<NotDecided>& open) {
   const VehicleCase& question = answers.question;
   Json document = {{"format", "soilbin-vehicle-answer/1"},
                    {"vehicle", question.name},
@@ -464,6 +464,9 @@ Json vehicle_json(const VehicleAnswers& answers) {
                    {"condition", asked_of_vehicle_json(question.condition)}};
   document["steady"] = answers.steady ? steady_vehicle_json(answers) : Json();
   document["failure"] = answers.failure ? failure_json(answers.wheels, *answers.failure) : Json();
+  document["not_decided"] =
+      open ? Json{{"steepest", or_null(open->steepest)}, {"steepest_as_in_grains", or_null(open->as_in_grains)}}
+           : Json();
   document["speed_at_largest_power"] = or_null(answers.power_speed);
   document["holds_speed"] = answers.steady && answers.holds_speed();
   document["steepest"] = {{"up", limit_json(answers, answers.up)},
@@ -521,9 +524,10 @@ std::string csv_of(const GoMap& map) {
   return text;
 }
 
-Report report_on(const VehicleAnswers& answers, const Doubts& doubts) {
+Report report_on(const VehicleAnswers& answers) { return report_on(answers, std::nullopt); }
+
+Report report_on(const VehicleAnswers& answers, const std::optional<NotDecided>& open) {
   const VehicleCase& question = answers.question;
-  const std::optional<NotDecided> open = not_decided(answers, doubts);
   const std::string asked = fmt::format("{} ({:.6g} kg) on {}: {}", question.name, question.mass, question.soil.name,
                                         condition_in_words(question.condition));
   Report report{"Vehicle: " + question.name, asked, asked};
@@ -555,7 +559,7 @@ Report report_on(const VehicleAnswers& answers, const Doubts& doubts) {
     report.no_answer =
         too_fast_in_words(answers) + ": " +
         (answers.not_held == TravelLimit::power ? "too little power" : travel_limit_in_words(*answers.not_held));
-  report.data = [&answers] { return vehicle_json(answers); };
+  report.data = [&answers, open] { return vehicle_json(answers, open); };
   report.csv = [&answers] { return vehicle_csv(answers); };
   return report;
 }

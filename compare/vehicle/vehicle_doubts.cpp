@@ -125,11 +125,8 @@ Doubts doubts_about(const VehicleAnswers& answers, Doubts notes) {
     const VehicleWheel& wheel = answers.wheels[i];
     if (state->wheels[i].lifted || !axles.insert(wheel.axle).second) continue;
     const TractionResult& result = state->wheels[i].result;
-    Case question;
-    question.name = wheel.name, question.scenario = wheel.scenario;
-    question.scenario.effects.clear();
-    question.study.models.emplace_back().effects = wheel.scenario.effects;
-    label_models(question.study.models);
+    Case question = question_of(wheel.scenario);
+    question.name = wheel.name;
     question.study.conditions = {result.at};
     append(notes, doubts(question, {{question.study.models.front(), {{result.at, result, ""}}}}));
   }
@@ -150,10 +147,9 @@ std::optional<NotDecided> not_decided(const VehicleAnswers& answers, const Doubt
   if (answers.steady && !answers.holds_speed()) return {};  // whatever the soil
   NotDecided open;
   if (tell_of(told, DoubtKind::travel_not_decided)) open.steepest = answers.up.angle;
-  const auto heavy = std::ranges::find(told, DoubtKind::heavy_climb, &Doubt::kind);
   const VehicleCondition& at = answers.question.condition;
-  if (heavy != told.end() && answers.up.angle && at.cross_slope == 0.0) {
-    const double other = std::get<double>(heavy->says[1]) * degree;
+  if (tell_of(told, DoubtKind::heavy_climb) && answers.up.angle && at.cross_slope == 0.0) {
+    const double other = climb_as_in_grains(answers).value_or(0.0);
     const auto [low, high] = std::minmax(other, answers.up.angle->value);
     if (at.slope > low && at.slope <= high) open.as_in_grains = other;
   }

@@ -34,13 +34,19 @@ std::vector<compare::VehicleWheel> wheels_with_tires(const VehicleCase& vehicle)
   return wheels_of(vehicle);
 }
 
+compare::Report told(const auto& answers, const Doubts&) { return report_on(answers); }
+compare::Report told(const compare::VehicleAnswers& answers, const Doubts& doubts) {
+  return report_on(answers, not_decided(answers, doubts));
+}
+
 /// What `ask` answers of the wheels, with their tires as declared; and what is doubtful in it.
 Document answered(const VehicleCase& question, const compare::TireLeftOut& left_out, const auto& ask) {
   return unlocked([&]() -> Document {
     std::vector<compare::VehicleWheel> wheels = wheels_with_tires(question);
     Doubts notes = declare_tires(wheels, left_out);
     const auto answers = ask(wheels, bekker_wong::BekkerWong({.errors = false, .patch = false}));
-    return {compare::json_text(report_on(answers).data()), compare::in_words(doubts_about(answers, std::move(notes)))};
+    const Doubts doubts = doubts_about(answers, std::move(notes));
+    return {compare::json_text(told(answers, doubts).data()), compare::in_words(doubts)};
   });
 }
 
