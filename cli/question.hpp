@@ -28,6 +28,10 @@ void add_effect(std::vector<EffectChoice>& effects, const std::string& text, con
 /// InputError.
 std::vector<EffectChoice> effects_named(const std::vector<std::string>& texts, const EffectVocabulary& vocabulary,
                                         const Soil& soil);
+/// Whether one of them says "none": then what the tire declares is left out too.
+inline bool switch_effects_off(const std::vector<std::string>& texts) {
+  return std::ranges::find(texts, "none") != texts.end();
+}
 
 /// Flags that pick or override a study's conditions. Each takes one value or several (several_values).
 class ConditionFlags {
@@ -87,7 +91,9 @@ class TireFlags {
   /// What to tell of it. `base_model`: every effect was switched off by name. Throws InputError for a
   /// question that names the effect of what is left out.
   compare::Doubts apply(Case& question, bool base_model = false) const {
-    return base_model ? compare::without_effects(question, left_out_) : compare::as_declared(question, left_out_);
+    compare::TireLeftOut left_out = left_out_;
+    left_out.effects = base_model;
+    return compare::as_declared(question, left_out);
   }
 
  private:
@@ -170,7 +176,7 @@ class Question {
   /// Whether --effect was given; whether as '--effect none', which leaves out what the tire declares too, as
   /// '--effect declared' does not.
   bool names_effects() const { return !effects_.empty(); }
-  bool switches_effects_off() const { return std::ranges::find(effects_, "none") != effects_.end(); }
+  bool switches_effects_off() const { return switch_effects_off(effects_); }
 
  private:
   Case from_flags(const Workplace& place) const;

@@ -48,8 +48,10 @@ VehicleQuestion::VehicleQuestion(CLI::App& app) {
       ->group("Vehicle, in place of the file's");
   add_value(app, "--soil", soil_, "NAME|FILE", "in place of the file's soil");
   soil_values_.add_to(app, "Values of the soil, in place of its own");
-  add_repeatable(app, "--effect", effects_, "ID[:FORM][,PARAMETER=VALUE...]",
-                 "in place of the file's effects; may be given again; none: they are off")
+  add_repeatable(
+      app, "--effect", effects_, "ID[:FORM][,PARAMETER=VALUE...]",
+      "in place of the file's effects; may be given again; none: all off; declared: the file's off, what the "
+      "tires declare on")
       ->group("Model");
   app.add_flag("--rigid", left_out_.pressure, "rigid wheels, whatever pressure the tires declare")->group("Model");
   app.add_flag("--no-lugs", left_out_.lugs, "smooth wheels, whatever lugs the tires declare")->group("Model");
@@ -66,6 +68,12 @@ void VehicleQuestion::change(compare::VehicleCase& vehicle) const {
   vehicle.name += ", changed";
   if (const std::string wrong = contradiction(vehicle); !wrong.empty())
     throw InputError(wrong + "\n  hint: these flags do not go with that; a file of your own says all of it");
+}
+
+compare::TireLeftOut VehicleQuestion::left_out() const {
+  compare::TireLeftOut left_out = left_out_;
+  left_out.effects = switch_effects_off(effects_);
+  return left_out;
 }
 
 void VehicleQuestion::refuse_what_its_drive_says(const compare::VehicleDrive& drive) const {

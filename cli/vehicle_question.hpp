@@ -27,7 +27,7 @@ class VehicleQuestion {
   compare::VehicleCase ask(const Workplace& place) const;
 
   /// What of its tires is left out.
-  const compare::TireLeftOut& left_out() const { return left_out_; }
+  compare::TireLeftOut left_out() const;
 
   /// Throws InputError for a flag of the condition that a drive would leave unread, because its file says it.
   void refuse_what_its_drive_says(const compare::VehicleDrive& drive) const;

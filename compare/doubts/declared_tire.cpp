@@ -110,8 +110,11 @@ void tell_of_size(const Tire& tire, Doubts& notes) {
 }  // namespace
 
 Doubts as_declared(Case& question, const TireLeftOut& left_out) {
-  Doubts notes = without_effects(question, left_out);
-  if (!question.scenario.soil.semi_empirical || question.study.conditions.empty()) return notes;
+  Doubts notes;
+  tell_of_size(question.scenario.tire, notes);
+  if (left_out.pressure) make_rigid(question, notes);
+  if (left_out.lugs) make_smooth(question, notes);
+  if (left_out.effects || !question.scenario.soil.semi_empirical || question.study.conditions.empty()) return notes;
   for (const DeclaredByTire& declared : declared_by_tires)
     if (declared.is_there(question) && !names(question, declared.effect) &&
         add_effect(declared, question.study.models)) {
@@ -119,14 +122,6 @@ Doubts as_declared(Case& question, const TireLeftOut& left_out) {
       note.says.emplace_back(declared.effect), note.says.emplace_back(declared.form);
       notes.push_back(std::move(note));
     }
-  return notes;
-}
-
-Doubts without_effects(Case& question, const TireLeftOut& left_out) {
-  Doubts notes;
-  tell_of_size(question.scenario.tire, notes);
-  if (left_out.pressure) make_rigid(question, notes);
-  if (left_out.lugs) make_smooth(question, notes);
   return notes;
 }
 

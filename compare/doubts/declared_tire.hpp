@@ -16,14 +16,14 @@ namespace soilbin::compare {
 struct TireLeftOut {
   bool pressure = false;  ///< a rigid wheel
   bool lugs = false;      ///< a smooth one
+  bool effects = false;   ///< every effect was switched off by name: the tire switches none on
 };
 
 /// Adds to the question's analytic models the effects of what its tire declares, one form each:
 /// - tire_flexibility, carcass_spring, where it has a load-deflection table too, which that form reads
 /// - tire_flexibility, flat_section, where every condition has an inflation pressure, its own or the tire's: it caps
-/// the
-///   pressure under the tread at inflation and carcass pressure, so that a wheel that presses with less rolls as the
-///   rigid one
+///   the pressure under the tread at inflation and carcass pressure, so that a wheel that presses with less rolls as
+///   the rigid one
 /// - lug_thrust, passive_blade, for lugs, where one model is asked: of the forms it alone has the size of the pull that
 ///   lugs add in grains which resolve them (docs/lab/grain-size.md). A study that sets models side by side keeps to
 ///   them
@@ -32,8 +32,5 @@ struct TireLeftOut {
 /// alone. Throws InputError where a model names the effect of what is to be left out, where a condition tells the
 /// pressure, and where grains are asked, which meet the tire with its lugs.
 Doubts as_declared(Case& question, const TireLeftOut& left_out);
-
-/// Doubts of as_declared without adding an effect, where every effect was switched off by name.
-Doubts without_effects(Case& question, const TireLeftOut& left_out);
 
 }  // namespace soilbin::compare

@@ -111,12 +111,16 @@ TEST(SlowVehicleCommand, SaysWhatIsNotDecidedInItsVerdict) {
   EXPECT_THAT(by_error.err, HasSubstr("soilbin: does not travel (not decided): "));
   const Outcome level = soilbin("vehicle truck --soil dry-sand");
   EXPECT_THAT(level.out, AllOf(HasSubstr("\nIt travels: "), testing::Not(HasSubstr("Not decided"))));
-  const double climbs =
-      soilbin("vehicle truck --soil dry-sand --json").json().at("steepest").at("up").at("slope").at("value");
-  const Outcome between = soilbin(fmt::format("vehicle truck --soil dry-sand --slope {}deg", 0.9 * climbs / degree));
-  EXPECT_THAT(between.out,
+  const auto on_level = soilbin("vehicle truck --soil dry-sand --json").json();
+  EXPECT_TRUE(on_level.at("not_decided").is_null());
+  const double climbs = on_level.at("steepest").at("up").at("slope").at("value");
+  const std::string steep = fmt::format("vehicle truck --soil dry-sand --slope {}deg", 0.9 * climbs / degree);
+  EXPECT_THAT(soilbin(steep).out,
               AllOf(HasSubstr("Not decided: "), HasSubstr("With what grains show under heavy tires on sand it climbs "),
                     HasSubstr("\nAs computed it travels: ")));
+  const auto open = soilbin(steep + " --json").json().at("not_decided");
+  EXPECT_LT(open.at("steepest_as_in_grains"), 0.9 * climbs);
+  EXPECT_TRUE(open.at("steepest").is_null());
 }
 
 TEST(VehicleCommand, StopsAtCtrlC) {
@@ -318,6 +322,22 @@ TEST(VehicleCommand, RefusesFlagsThatContradictItsFile) {
   EXPECT_THAT(told("--inflation-pressure 20kPa --rigid"),
               HasSubstr("--rigid: a rigid wheel has no inflation pressure"));
   EXPECT_THAT(told("--effect none --effect multipass"), HasSubstr("--effect none excludes all others"));
+}
+
+// As estimate has them: "none" leaves out what the tires declare, "declared" only what the file says.
+TEST(VehicleCommand, EffectsGoOffByName) {
+  const auto slip = [](const std::string& flags) {
+    return soilbin("vehicle truck --soil sandy-loam --json " + flags)
+        .json()
+        .at("steady")
+        .at("slip")
+        .at("value")
+        .get<double>();
+  };
+  const double declared = slip("--effect declared"), none = slip("--effect none");
+  EXPECT_NE(declared, slip("")) << "the truck's file has multipass";
+  EXPECT_NE(declared, none);
+  EXPECT_EQ(none, slip("--effect none --rigid --no-lugs")) << "of tires it keeps size and place";
 }
 
 TEST(VehicleCommand, ItsFileIsChecked) {

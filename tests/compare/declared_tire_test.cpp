@@ -55,7 +55,7 @@ TEST(DeclaredTire, KeepsToWhatIsNamed) {
   EXPECT_THAT(as_declared(fitted, {}), IsEmpty());
   grains.study.models.front().model = ModelKind::dem;
   EXPECT_THAT(as_declared(grains, {}), IsEmpty());
-  EXPECT_THAT(without_effects(off, {}), IsEmpty());
+  EXPECT_THAT(as_declared(off, {.effects = true}), IsEmpty());
   Case compared = heavy_question();
   compared.study.models.push_back({ModelKind::bekker_wong, {{"slip_sinkage", "linear", {{"S", 1.0}}}}, "deeper"});
   EXPECT_THAT(in_words(as_declared(compared, {})), ElementsAre(HasSubstr("flexible")))

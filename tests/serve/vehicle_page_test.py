@@ -216,7 +216,7 @@ class OfATruck(VehiclePage):
         self.assertTrue(self.js(f"{box}.checked"))
         self.js(f"{box}.click()")
         self.assertTrue(self.browser.until("!soilbin.live.asking"))
-        self.assertIn("--effect=none", self.command())
+        self.assertIn("--effect=declared", self.command())
         self.reset()
 
     def test_5_what_the_tires_declare_is_on_and_goes_off(self):

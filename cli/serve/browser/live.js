@@ -179,7 +179,7 @@ soilbin.LivePage = class {
   }
   takesEffects() { return true; }
   // What --effect is given where the start has effects and no word is left.
-  withoutEffects() { return 'none'; }
+  withoutEffects() { return 'declared'; }
   // Whether a tire declares what an effect is about.
   declares(effect) { return this.taken.has(effect.id); }
   wordOf(effect) { return this.effectWords().find(word => word.split(/[:,]/)[0] === effect.id); }

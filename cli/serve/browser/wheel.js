@@ -46,7 +46,7 @@ soilbin.drawWheel = function (wheel) {
       arrow(...outer[i], ...arc[i], 'c0', 1);
       arrow(...arc[i], arc[i][0] + shear * Math.cos(theta), arc[i][1] - shear * Math.sin(theta), 'c1');
     }
-    const degrees = theta => `${(theta * 180 / Math.PI).toFixed(0)}\u00b0`;
+    const degrees = theta => `${Math.round(theta * 180 / Math.PI)}\u00b0`;  // no "-0"
     for (const [theta, end, name] of [[wheel.entry, arc[arc.length - 1], '\u03b8\u2081 '], [wheel.exit, arc[0], '\u03b8\u2082 ']]) {
       add('line', {class: 'quiet-line', 'stroke-dasharray': '2 3', x1: 0, y1: 0, x2: end[0].toFixed(1), y2: end[1].toFixed(1)});
       text(0.55 * end[0] + (theta > 0.05 ? 6 : -6), 0.55 * end[1], name + degrees(theta),

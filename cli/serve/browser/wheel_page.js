@@ -27,7 +27,6 @@ soilbin.WheelPage = class extends soilbin.LivePage {
       this.group('Curves', wide, this.list('Slip from', soilbin.slipRanges, 'slips', soilbin.slipRanges[0][0]))];
   }
 
-  withoutEffects() { return 'declared'; }
   takesEffects() { return (this.state.get('model') || this.start.model) === 'bekker_wong'; }
   declares(effect) { return Number(this.numbers.get(soilbin.declaredBy[effect.id]).box.value) > 0; }
 
