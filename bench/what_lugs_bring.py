@@ -4,9 +4,10 @@
 
 Reads the records of heavy-lugged-incline and heavy-smooth-incline (cases/studies/recorded) and prints Markdown tables,
 a row a condition that both have on one bed sample; with half of the lugs beside them (heavy-half-lugged-incline); then,
-of the conditions that heavy-lugged-17mm and heavy-smooth-17mm have too, a row a grain size. All tires run on one bed at
-one slip of the tread base, so that what beds differ by cancels. "Infinitely fine" is by the twins with grains 1.4 times
-as large, D + (D - D_coarser)/0.4. ± is one standard error of the runs' fluctuations.
+of the conditions that the pairs with finer grains have too (heavy-lugged-17mm, heavy-lugged-15mm, each beside its
+smooth tire), a row a grain size. The tires of a pair run on one bed at one slip of the tread base, so that what beds
+differ by cancels. "Infinitely fine" is by the twins with grains 1.4 times as large, D + (D - D_coarser)/0.4. ± is one
+standard error of the runs' fluctuations.
 """
 import argparse
 import json
@@ -20,7 +21,8 @@ from soilbin.bekker_wong import BekkerWong
 
 FORMS = ("passive_blade", "shear_radius_own_slip", "side_factors", "free_blade", "level_blade", "tips")
 RECORDED = Path(__file__).parent.parent / "cases/studies/recorded"
-PAIRS = [[RECORDED / f"heavy-{tire}-{grains}.json" for tire in ("lugged", "smooth")] for grains in ("incline", "17mm")]
+PAIRS = [[RECORDED / f"heavy-{tire}-{grains}.json" for tire in ("lugged", "smooth")]
+         for grains in ("incline", "17mm", "15mm")]
 HALF = RECORDED / "heavy-half-lugged-incline.json"
 LUG_HEIGHT, RADIUS = 0.045, 0.7006  # [m], the radius to the tread base
 CONDITION = ("load", "slip", "speed", "longitudinal_incline", "transverse_incline", "yaw")
@@ -77,14 +79,17 @@ def at_no_size(diameters, values, errors):
 
 
 def print_by_grain_size(pairs):
-    """Prints what lugs bring in each grain size of several pairs of records, where all have a condition."""
+    """Prints what lugs bring in each grain size of several pairs of records, at conditions that two pairs have."""
     read = [(grain_diameter(pair[0]), answers(pair[0]), answers(pair[1])) for pair in pairs]
-    shared = set.intersection(*(set(one) for _, *records in read for record in records for one in record))
-    print("\n| slip | grains [mm] | to a lug | pull without, % of the load | with | lugs bring | torque, % | sinkage [mm] |\n"
-          + "|---" * 8 + "|")
-    for key in sorted(shared, key=lambda key: (key[4], key[2])):
-        slip, diameters, pulls = f"| {100 * key[2]:.0f} %", [], []
-        for diameter, lugged, smooth in read:
+    having = {}
+    for pair in read:
+        for key in set.intersection(*(set(one) for record in pair[1:] for one in record)):
+            having.setdefault(key, []).append(pair)
+    print("\n| uphill | slip | grains [mm] | to a lug | pull without, % of the load | with | lugs bring | torque, % "
+          "| sinkage [mm] |\n" + "|---" * 9 + "|")
+    for key in sorted((key for key, of in having.items() if len(of) > 1), key=lambda key: (key[4], key[2])):
+        diameters, pulls = [], []
+        for diameter, lugged, smooth in having[key]:
             for coarser in (1, 0):
                 with_lugs, without = lugged[coarser][key], smooth[coarser][key]
                 diameters.append(diameter * 1.4**coarser)
@@ -93,12 +98,12 @@ def print_by_grain_size(pairs):
                     change(with_lugs, without, "drawbar_pull"))])
                 torque, sinkage = (change(with_lugs, without, name) for name in ("torque", "sinkage"))
                 told = " | ".join("{:+.1f} ± {:.1f}".format(*pull) for pull in pulls[-1])
-                print(f"{slip} | {1e3 * diameters[-1]:.1f} | {LUG_HEIGHT / diameters[-1]:.1f} | {told} "
+                print(f"{place(key)}| {1e3 * diameters[-1]:.1f} | {LUG_HEIGHT / diameters[-1]:.1f} | {told} "
                       f"| {100 * torque[0] / without['torque']:+.0f} ± {100 * torque[1] / without['torque']:.0f} "
                       f"| {1e3 * without['sinkage']:.0f} {1e3 * sinkage[0]:+.1f} ± {1e3 * sinkage[1]:.1f} |")
         lines = [at_no_size(diameters, *np.transpose(one)) for one in zip(*pulls)]
         told = " | ".join("{:+.1f} ± {:.1f} (chi2 {:.1f})".format(*line) for line in lines)
-        print(f"{slip} | 0, by the line | | {told} | | |")
+        print(f"{place(key)}| 0, by the line | | {told} | | |")
 
 
 def pull_by_number(key):
@@ -172,7 +177,7 @@ def main():
         print(f"{place(key)}| {gain[key]} | "
               + " | ".join("{:+.1f}, {:+.0f} %".format(*said(*pair, at)) for pair in models.values()) + " |")
     print_by_number(records[1], HALF, records[0])
-    print_by_grain_size([records, PAIRS[1]])
+    print_by_grain_size([records, *PAIRS[1:]])
 
 
 if __name__ == "__main__":

@@ -200,11 +200,13 @@ std::vector<PrintedValue> printed_values(const TractionResult& r, ForcesIn told)
   const std::string none = why_no_efficiency(r);
   all.push_back(
       {"Tractive efficiency", none.empty() ? efficiency_in_percent(r) : "none: " + none, none.empty() ? "%" : ""});
-  if (std::isfinite(r.entry_angle))
+  if (std::isfinite(r.entry_angle)) {
+    const auto tenths = [](double angle) { return std::round(10 * angle / degree) / 10 + 0.0; };  // no "-0.0"
     all.push_back({"Contact",
-                   fmt::format("entry {:.1f} deg, peak stress {:.1f} deg, exit {:.1f} deg", r.entry_angle / degree,
-                               r.max_stress_angle / degree, r.exit_angle / degree + 0.0),
+                   fmt::format("entry {:.1f} deg, peak stress {:.1f} deg, exit {:.1f} deg", tenths(r.entry_angle),
+                               tenths(r.max_stress_angle), tenths(r.exit_angle)),
                    ""});
+  }
   if (std::isfinite(r.contact_area))
     all.push_back({"Ground pressure",
                    fmt::format("{} kPa: the load over {} cm² of contact, seen from above",
