@@ -120,7 +120,7 @@ TEST(SlowVehicleCommand, SaysWhatIsNotDecidedInItsVerdict) {
                     HasSubstr("\nAs computed it travels: ")));
   const auto open = soilbin(steep + " --json").json().at("not_decided");
   EXPECT_LT(open.at("steepest_as_in_grains"), 0.9 * climbs);
-  EXPECT_TRUE(open.at("steepest").is_null());
+  EXPECT_EQ(open.at("steepest").at("value"), climbs) << "its error reaches that slope, too";
 }
 
 TEST(VehicleCommand, StopsAtCtrlC) {
