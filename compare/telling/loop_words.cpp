@@ -389,9 +389,12 @@ std::string odds_clause(const LoopAnswer& answer) {
   return noise_verdict(signatures);
 }
 
-/// What a single effect's form means where it says more than the effect's title; "" for several effects.
-std::string meaning_of_form(const CandidateModel& best) {
-  return best.terms().size() == 1 ? best.terms().front().form->meaning : "";
+/// What the forms mean that say more than their effects' titles: which instrument; "" where none does.
+std::string meaning_of_forms(const CandidateModel& best) {
+  std::vector<std::string> meanings;
+  for (const auto& term : best.terms())
+    if (!term.form->meaning.empty()) meanings.push_back(term.form->meaning);
+  return fmt::format("{}", fmt::join(meanings, "; "));
 }
 
 /// The verdict as a sentence without its end.
@@ -399,16 +402,17 @@ std::string verdict_clause(const LoopAnswer& answer) {
   switch (answer.verdict()) {
     case Verdict::effect_found: {
       const std::set<std::string>& ids = answer.found().best().ids;
-      const std::string names = named_effects(ids), by_form = meaning_of_form(answer.found().best());
+      const std::string names = named_effects(ids), by_form = meaning_of_forms(answer.found().best());
       if (answer.ambiguity_set().size() > 1) {
         const std::string what = ids.size() == 1 ? "an effect" : fmt::format("{} effects", ids.size());
-        const std::string share = share_words(answer.ambiguity_set().front().weight);
+        const std::string share =
+            (by_form.empty() ? "" : by_form + "; ") + share_words(answer.ambiguity_set().front().weight);
         if (!why_taken(answer.ambiguity_set()).empty())
           return fmt::format("The model lacks {}: {}, by conditions left out ({} by the fit)", what, names, share);
-        return fmt::format("The model lacks {}, most likely {} ({}{})", what, names,
-                           by_form.empty() ? "" : by_form + "; ", share);
+        return fmt::format("The model lacks {}, most likely {} ({})", what, names, share);
       }
-      if (ids.size() > 1) return fmt::format("The model lacks {}", names);
+      if (ids.size() > 1)
+        return fmt::format("The model lacks {}{}", names, by_form.empty() ? "" : " (" + by_form + ")");
       return fmt::format("The model lacks {}: {}", names,
                          by_form.empty() ? effect_title(*ids.begin()).meaning : std::string_view(by_form));
     }

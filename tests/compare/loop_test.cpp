@@ -178,6 +178,8 @@ TEST(SlowLoop, NamesInstrumentsThatAreOutOfScale) {
     const LoopAnswer answer = run_loop(campaign, quick());
     ASSERT_EQ(answer.verdict(), Verdict::effect_found) << reason_words(answer);
     EXPECT_TRUE(in_ambiguity_set(answer, {"sensor_offset"}));
+    EXPECT_THAT(verdict_sentence(answer), testing::HasSubstr(bekker_wong::find_form(truth).meaning))
+        << "which instrument";
     EXPECT_LT(answer.validation.overall.after, 1.3);
   }
 }
