@@ -79,28 +79,27 @@ def at_no_size(diameters, values, errors):
 
 
 def print_by_grain_size(pairs):
-    """Prints what lugs bring in each grain size of several pairs of records, at conditions that two pairs have."""
-    read = [(grain_diameter(pair[0]), answers(pair[0]), answers(pair[1])) for pair in pairs]
-    having = {}
-    for pair in read:
-        for key in set.intersection(*(set(one) for record in pair[1:] for one in record)):
-            having.setdefault(key, []).append(pair)
+    """Prints what lugs bring in each grain size of several pairs of records, at the conditions of the later pairs."""
+    having = {}  # of each condition: diameter, lugged and smooth run
+    for pair in pairs:
+        for coarser, (lugged, smooth) in zip((1.0, 1.4), zip(*map(answers, pair))):
+            for key in lugged.keys() & smooth.keys():
+                having.setdefault(key, []).append((grain_diameter(pair[0]) * coarser, lugged[key], smooth[key]))
     print("\n| uphill | slip | grains [mm] | to a lug | pull without, % of the load | with | lugs bring | torque, % "
           "| sinkage [mm] |\n" + "|---" * 9 + "|")
-    for key in sorted((key for key, of in having.items() if len(of) > 1), key=lambda key: (key[4], key[2])):
+    finer = {key for pair in pairs[1:] for key in answers(pair[0])[0]}
+    for key in sorted(having.keys() & finer, key=lambda key: (key[4], key[2])):
         diameters, pulls = [], []
-        for diameter, lugged, smooth in having[key]:
-            for coarser in (1, 0):
-                with_lugs, without = lugged[coarser][key], smooth[coarser][key]
-                diameters.append(diameter * 1.4**coarser)
-                pulls.append([100 * np.array(one) / key[1] for one in (
-                    *((run["drawbar_pull"], run["std_error"]["drawbar_pull"]) for run in (without, with_lugs)),
-                    change(with_lugs, without, "drawbar_pull"))])
-                torque, sinkage = (change(with_lugs, without, name) for name in ("torque", "sinkage"))
-                told = " | ".join("{:+.1f} ± {:.1f}".format(*pull) for pull in pulls[-1])
-                print(f"{place(key)}| {1e3 * diameters[-1]:.1f} | {LUG_HEIGHT / diameters[-1]:.1f} | {told} "
-                      f"| {100 * torque[0] / without['torque']:+.0f} ± {100 * torque[1] / without['torque']:.0f} "
-                      f"| {1e3 * without['sinkage']:.0f} {1e3 * sinkage[0]:+.1f} ± {1e3 * sinkage[1]:.1f} |")
+        for diameter, with_lugs, without in sorted(having[key], key=lambda one: -one[0]):
+            diameters.append(diameter)
+            pulls.append([100 * np.array(one) / key[1] for one in (
+                *((run["drawbar_pull"], run["std_error"]["drawbar_pull"]) for run in (without, with_lugs)),
+                change(with_lugs, without, "drawbar_pull"))])
+            torque, sinkage = (change(with_lugs, without, name) for name in ("torque", "sinkage"))
+            told = " | ".join("{:+.1f} ± {:.1f}".format(*pull) for pull in pulls[-1])
+            print(f"{place(key)}| {1e3 * diameter:.1f} | {LUG_HEIGHT / diameter:.1f} | {told} "
+                  f"| {100 * torque[0] / without['torque']:+.0f} ± {100 * torque[1] / without['torque']:.0f} "
+                  f"| {1e3 * without['sinkage']:.0f} {1e3 * sinkage[0]:+.1f} ± {1e3 * sinkage[1]:.1f} |")
         lines = [at_no_size(diameters, *np.transpose(one)) for one in zip(*pulls)]
         told = " | ".join("{:+.1f} ± {:.1f} (chi2 {:.1f})".format(*line) for line in lines)
         print(f"{place(key)}| 0, by the line | | {told} | | |")
