@@ -79,7 +79,7 @@ def at_no_size(diameters, values, errors):
 
 
 def print_by_grain_size(pairs):
-    """Prints what lugs bring in each grain size of several pairs of records, at the conditions of the later pairs."""
+    """Prints what lugs bring in each grain size of several pairs of records, where more than one has a condition."""
     having = {}  # of each condition: diameter, lugged and smooth run
     for pair in pairs:
         for coarser, (lugged, smooth) in zip((1.0, 1.4), zip(*map(answers, pair))):
@@ -87,8 +87,8 @@ def print_by_grain_size(pairs):
                 having.setdefault(key, []).append((grain_diameter(pair[0]) * coarser, lugged[key], smooth[key]))
     print("\n| uphill | slip | grains [mm] | to a lug | pull without, % of the load | with | lugs bring | torque, % "
           "| sinkage [mm] |\n" + "|---" * 9 + "|")
-    finer = {key for pair in pairs[1:] for key in answers(pair[0])[0]}
-    for key in sorted(having.keys() & finer, key=lambda key: (key[4], key[2])):
+    several = [key for key, runs in having.items() if len(runs) > 2]  # one pair has two at most, a run and its twin
+    for key in sorted(several, key=lambda key: (key[4], key[2])):
         diameters, pulls = [], []
         for diameter, with_lugs, without in sorted(having[key], key=lambda one: -one[0]):
             diameters.append(diameter)
