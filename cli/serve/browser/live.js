@@ -178,8 +178,6 @@ soilbin.LivePage = class {
       : this.startEffects();
   }
   takesEffects() { return true; }
-  // What --effect is given where the start has effects and no word is left.
-  withoutEffects() { return 'declared'; }
   // Whether a tire declares what an effect is about.
   declares(effect) { return this.taken.has(effect.id); }
   wordOf(effect) { return this.effectWords().find(word => word.split(/[:,]/)[0] === effect.id); }
@@ -209,7 +207,7 @@ soilbin.LivePage = class {
     if (word) words.push(word);
     this.state.delete('effect');
     if ([...words].sort().join() !== this.startEffects().sort().join())
-      for (const w of words.length ? words : [this.withoutEffects()]) this.state.append('effect', w);
+      for (const w of words.length ? words : ['declared']) this.state.append('effect', w);
     this.showEffects();
     this.ask();
   }
